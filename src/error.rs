@@ -1,0 +1,172 @@
+//! The one error type. Every message says what is wrong, where, and what to do next.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// One thing wrong with a scene: where, what, and how to mend it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
+    /// Place in the scene file, as a JSON path: `bodies[2].shape.radius`; empty for the whole file.
+    pub path: String,
+    pub what: String,
+    pub mend: String,
+}
+
+impl Problem {
+    pub fn new(
+        path: impl Into<String>,
+        what: impl Into<String>,
+        mend: impl Into<String>,
+    ) -> Self {
+        Self {
+            path: path.into(),
+            what: what.into(),
+            mend: mend.into(),
+        }
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let place = if self.path.is_empty() {
+            "(whole scene)"
+        } else {
+            &self.path
+        };
+        write!(f, "{place}: {}\n    mend: {}", self.what, self.mend)
+    }
+}
+
+/// The first particle that the device's guard caught, and when.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Casualty {
+    pub frame: u32,
+    /// Steps since the run began.
+    pub step: u64,
+    /// Seconds of simulated time.
+    pub time: f64,
+    pub id: u32,
+    /// Metres, in the scene's own coordinates.
+    pub position: [f64; 3],
+    /// Metres per second.
+    pub velocity: [f32; 3],
+    /// Particles caught by the time the host looked.
+    pub count: u32,
+    pub what: String,
+    pub likely_cause: String,
+}
+
+#[derive(Debug)]
+pub enum Error {
+    /// The scene file holds mistakes; all of them are listed.
+    Scene {
+        file: String,
+        problems: Vec<Problem>,
+    },
+    /// A file or folder could not be read or written.
+    File {
+        path: PathBuf,
+        doing: &'static str,
+        reason: String,
+        mend: String,
+    },
+    /// No adapter, no such adapter, or a lost device.
+    Device { what: String, mend: String },
+    /// The scene needs more than the adapter has.
+    Limit { what: String, mend: String },
+    /// A shader does not compile: a defect of Sliceflow, told with the author's file and line.
+    Shader { message: String },
+    /// The simulation became non-finite or lost a particle.
+    Guard(Box<Casualty>),
+    /// The command line asks for something that cannot be done.
+    Usage { what: String, mend: String },
+    /// Ctrl-C; what was finished is on disk.
+    Interrupted { frames_done: u32 },
+}
+
+impl Error {
+    pub fn file(
+        path: &Path,
+        doing: &'static str,
+        reason: impl fmt::Display,
+        mend: impl Into<String>,
+    ) -> Self {
+        Self::File {
+            path: path.to_owned(),
+            doing,
+            reason: reason.to_string(),
+            mend: mend.into(),
+        }
+    }
+
+    pub fn usage(what: impl Into<String>, mend: impl Into<String>) -> Self {
+        Self::Usage {
+            what: what.into(),
+            mend: mend.into(),
+        }
+    }
+
+    pub fn device(what: impl Into<String>, mend: impl Into<String>) -> Self {
+        Self::Device {
+            what: what.into(),
+            mend: mend.into(),
+        }
+    }
+
+    /// Exit status of the program: 2 for what the user can mend in the input, 130 after Ctrl-C, 1 otherwise.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Scene { .. } | Self::Usage { .. } => 2,
+            Self::Interrupted { .. } => 130,
+            _ => 1,
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scene { file, problems } => {
+                let s = if problems.len() == 1 { "" } else { "s" };
+                write!(f, "{file}: {} problem{s} in the scene", problems.len())?;
+                for problem in problems {
+                    write!(f, "\n  {problem}")?;
+                }
+                Ok(())
+            }
+            Self::File {
+                path,
+                doing,
+                reason,
+                mend,
+            } => {
+                write!(f, "cannot {doing} {}: {reason}\n  mend: {mend}", path.display())
+            }
+            Self::Device { what, mend } | Self::Limit { what, mend } | Self::Usage { what, mend } => {
+                write!(f, "{what}\n  mend: {mend}")
+            }
+            Self::Shader { message } => write!(
+                f,
+                "a shader of Sliceflow does not compile; this is a defect, please report it\n{message}"
+            ),
+            Self::Guard(c) => {
+                let [x, y, z] = c.position;
+                let [u, v, w] = c.velocity;
+                write!(
+                    f,
+                    "{} at frame {}, step {}, t = {:.6} s: particle {} at ({x:.6}, {y:.6}, {z:.6}) m \
+                     with velocity ({u:.4}, {v:.4}, {w:.4}) m/s; {} particle(s) in all\n  \
+                     likely cause: {}\n  what was written before stays",
+                    c.what, c.frame, c.step, c.time, c.id, c.count, c.likely_cause
+                )
+            }
+            Self::Interrupted { frames_done } => {
+                write!(f, "interrupted; {frames_done} finished frame(s) are on disk")
+            }
+        }
+    }
+}
+
+impl std::error::Error for Error {}

@@ -1,0 +1,67 @@
+//! Columns: values that every particle has and that can be drawn, written or logged. Registered once, in [`COLUMNS`].
+
+/// One value a particle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Column {
+    /// Name in scene files, on the command line and of the shader file `render/columns/NAME.wgsl`.
+    pub name: &'static str,
+    pub unit: &'static str,
+    pub about: &'static str,
+    pub source: Source,
+}
+
+/// Where a column's values come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// Position, velocity and id: always there.
+    State,
+    /// Measured at the end of a frame, by a pass that runs only when somebody asks for the column.
+    Measured,
+    /// The neighbor search.
+    Search,
+}
+
+const fn column(
+    name: &'static str,
+    unit: &'static str,
+    about: &'static str,
+    source: Source,
+) -> Column {
+    Column {
+        name,
+        unit,
+        about,
+        source,
+    }
+}
+
+/// Every column there is.
+pub const COLUMNS: &[Column] = &[
+    column("speed", "m/s", "magnitude of the velocity", Source::State),
+    column("x", "m", "position along x, in the scene's coordinates", Source::State),
+    column("y", "m", "position along y, in the scene's coordinates", Source::State),
+    column("z", "m", "position along z, in the scene's coordinates", Source::State),
+    column("velocity_x", "m/s", "velocity along x", Source::State),
+    column("velocity_y", "m/s", "velocity along y", Source::State),
+    column("velocity_z", "m/s", "velocity along z", Source::State),
+    column("id", "", "the particle's number, stable during the run", Source::State),
+    column("contacts", "", "grains and walls that touch the grain", Source::Measured),
+    column(
+        "density",
+        "kg/m³",
+        "mass of the grains in the block of voxels around, over the block's volume",
+        Source::Measured,
+    ),
+    column(
+        "pressure",
+        "Pa",
+        "sum of the normal contact forces over the grain's surface",
+        Source::Measured,
+    ),
+    column("slice", "", "voxel coordinate along the slicing axis", Source::Search),
+];
+
+/// The column with this name.
+pub fn find(name: &str) -> Option<Column> {
+    COLUMNS.iter().copied().find(|column| column.name == name)
+}

@@ -1,0 +1,187 @@
+//! Scenes: what a user writes ([`model`]), checked ([`check`]), completed and turned into numbers ([`Scene`]).
+//!
+//! Everything in a [`Scene`] is finite, in SI units, and relative to [`Scene::origin`], which was subtracted in f64.
+
+pub mod column;
+pub mod model;
+
+use glam::{DVec3, Vec3};
+use model::{Addressing, Axis, Dashpot, Integrator, Render, SceneFile, Storage, Wall};
+
+use column::Column;
+
+/// A validated scene. Nothing after `scene::load` asks again whether a number makes sense.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    pub name: String,
+    /// The scene as the user wrote it, after `--set`; defaults filled in.
+    pub file: SceneFile,
+    pub dimensions: Dimensions,
+    /// Where local coordinates have their zero, in the scene's own coordinates, metres.
+    pub origin: DVec3,
+    pub domain: Domain,
+    pub gravity: Vec3,
+    pub grains: Grains,
+    /// Grains that are there from the start; ids 0, 1, 2, … in this order.
+    pub particles: Particles,
+    /// Particles on the device when every event has happened.
+    pub capacity: u32,
+    pub colliders: Vec<Collider>,
+    /// What happens during the run, by time.
+    pub schedule: Vec<Scheduled>,
+    pub neighbors: Neighbors,
+    pub time: Time,
+    pub render: Render,
+    pub color: Coloring,
+    /// What was decided or dropped on the way (overlaps removed, say); told to the user.
+    pub notes: Vec<String>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimensions {
+    Two,
+    Three,
+}
+
+impl Dimensions {
+    pub fn count(self) -> usize {
+        match self {
+            Self::Two => 2,
+            Self::Three => 3,
+        }
+    }
+}
+
+/// The scene's box in local coordinates, metres. In 2D, z runs from 0 to 0.
+#[derive(Debug, Clone)]
+pub struct Domain {
+    pub min: Vec3,
+    pub max: Vec3,
+    /// `[axis][0]` is the lower side, `[axis][1]` the upper.
+    pub sides: [[Wall; 2]; 3],
+    /// Of `clamp` walls.
+    pub restitution: f32,
+}
+
+/// Equal grains.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grains {
+    /// Metres.
+    pub radius: f64,
+    /// Kilograms.
+    pub mass: f64,
+    pub contact: Contact,
+}
+
+/// The contact law with its coefficients (Harada 2007, Eq. 9 and 10; Green 2012).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// N/m.
+    pub spring: f64,
+    /// Between two grains, N·s/m.
+    pub damping: f64,
+    /// Between a grain and a wall or collider, N·s/m.
+    pub wall_damping: f64,
+    pub dashpot: Dashpot,
+    /// N·s/m.
+    pub shear: f64,
+    /// N/m.
+    pub attraction: f64,
+    /// 1/s.
+    pub global_damping: f64,
+}
+
+/// Positions (local, metres) and velocities (m/s) of particles, one entry a particle.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Particles {
+    pub position: Vec<Vec3>,
+    pub velocity: Vec<Vec3>,
+}
+
+impl Particles {
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+
+    pub fn append(&mut self, mut other: Particles) {
+        self.position.append(&mut other.position);
+        self.velocity.append(&mut other.velocity);
+    }
+}
+
+/// An obstacle. It moves along `path`, piecewise linear; an empty path is rest.
+#[derive(Debug, Clone)]
+pub struct Collider {
+    pub name: String,
+    pub shape: ColliderShape,
+    /// Seconds and the offset from where the shape stands, metres; ascending in time.
+    pub path: Vec<(f64, Vec3)>,
+    /// sRGB, 0 to 1.
+    pub color: [f32; 3],
+    pub visible: bool,
+}
+
+/// In local coordinates, metres.
+#[derive(Debug, Clone)]
+pub enum ColliderShape {
+    /// Solid where `dot(normal, x - point) < 0`; the normal has length one.
+    Plane { point: Vec3, normal: Vec3 },
+    Box { min: Vec3, max: Vec3 },
+    Sphere { center: Vec3, radius: f32 },
+    Mesh(mesh::Mesh),
+}
+
+/// Something to do before the first step that starts at `time` or later.
+#[derive(Debug, Clone)]
+pub struct Scheduled {
+    /// Seconds.
+    pub time: f64,
+    pub action: Action,
+}
+
+#[derive(Debug, Clone)]
+pub enum Action {
+    /// From now on these hold.
+    SetParameters { gravity: Vec3, contact: Contact },
+    /// New particles; their ids follow those that exist.
+    Add(Particles),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Neighbors {
+    pub addressing: Addressing,
+    pub storage: Storage,
+    pub slicing_axis: Axis,
+    /// Indices a voxel of a pool can hold.
+    pub slots: u32,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Time {
+    /// Frames to write, the first state included: frame f shows time f / fps.
+    pub frames: u32,
+    pub fps: f64,
+    /// Seconds; a whole number of steps makes one frame.
+    pub step: f64,
+    pub steps_per_frame: u32,
+    pub integrator: Integrator,
+    /// Seconds that the shortest contact of the run lasts.
+    pub contact_duration: f64,
+    /// What limits the step, in words.
+    pub limited_by: &'static str,
+}
+
+/// How values become colors.
+#[derive(Debug, Clone)]
+pub struct Coloring {
+    pub column: Column,
+    /// Name of a color map.
+    pub map: String,
+    /// Values at the ends of the map.
+    pub range: [f64; 2],
+    pub legend: bool,
+}

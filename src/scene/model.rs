@@ -1,0 +1,696 @@
+//! What a user writes: the scene file, field for field, with unit, range and default.
+//!
+//! These types carry no decisions. The JSON schema (`sliceflow schema`) is derived from them, `check` walks a
+//! file against that schema and collects every mistake, and `validate` turns the result into a [`super::Scene`].
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A point, direction or velocity: two numbers in a 2D scene, three in a 3D scene. SI units, y up, right-handed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct Coordinates(#[schemars(length(min = 2, max = 3))] pub Vec<f64>);
+
+/// A scene of grains in a box, from which frames are made.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SceneFile {
+    /// Where editors find the schema; not used by the program.
+    #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
+    pub schema: Option<String>,
+    /// Short name; the file's name when left out.
+    #[serde(default)]
+    pub name: String,
+    /// One or two sentences for `sliceflow scenes`.
+    #[serde(default)]
+    pub description: String,
+    /// Paper, experiment or author that the scene comes from.
+    #[serde(default)]
+    pub source: String,
+    /// 2 or 3.
+    #[serde(default = "three")]
+    #[schemars(range(min = 2, max = 3))]
+    pub dimensions: u32,
+    /// Seed of every random choice (jitter, random packings).
+    #[serde(default)]
+    pub seed: u64,
+    pub domain: Domain,
+    /// Metres per second squared.
+    #[serde(default = "earth")]
+    pub gravity: Coordinates,
+    pub grains: Grains,
+    #[serde(default)]
+    pub bodies: Vec<Body>,
+    #[serde(default)]
+    pub colliders: Vec<Collider>,
+    #[serde(default)]
+    pub emitters: Vec<Emitter>,
+    #[serde(default)]
+    pub events: Vec<Event>,
+    #[serde(default)]
+    pub neighbors: Neighbors,
+    #[serde(default)]
+    pub time: Time,
+    #[serde(default)]
+    pub render: Render,
+}
+
+fn three() -> u32 {
+    3
+}
+fn earth() -> Coordinates {
+    Coordinates(vec![0.0, -9.81, 0.0])
+}
+
+/// The box that the grains live in, and what its sides do.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Domain {
+    /// Lower corner, metres.
+    pub min: Coordinates,
+    /// Upper corner, metres.
+    pub max: Coordinates,
+    /// What all sides do, unless `sides` names one.
+    #[serde(default)]
+    pub walls: Wall,
+    /// Sides that differ from `walls`.
+    #[serde(default)]
+    pub sides: Sides,
+    /// Share of the normal speed that a `clamp` wall gives back.
+    #[serde(default = "half")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub restitution: f64,
+}
+
+fn half() -> f64 {
+    0.5
+}
+
+/// What a side of the domain does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Wall {
+    /// Pushes back with the same contact law as between grains.
+    #[default]
+    Contact,
+    /// Moves the grain back to the wall and reverses its normal speed, times `restitution` (Green 2012).
+    Clamp,
+    /// Lets grains leave.
+    Open,
+}
+
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Sides {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x_min: Option<Wall>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x_max: Option<Wall>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y_min: Option<Wall>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y_max: Option<Wall>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z_min: Option<Wall>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z_max: Option<Wall>,
+}
+
+/// Equal grains and their contact law: spring and dashpot (Harada 2007, Eq. 9 and 10), shear and attraction
+/// (Green 2012). Give the dashpot as `damping` or as `restitution`, not both.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Grains {
+    /// Metres.
+    #[schemars(range(min = 1e-9, max = 1e6))]
+    pub radius: f64,
+    /// Density of a grain's material, kg/m³ (a 2D grain is a disc one metre thick).
+    #[serde(default = "sand")]
+    #[schemars(range(min = 1e-6, max = 1e6))]
+    pub density: f64,
+    /// Spring coefficient k of Harada 2007, Eq. 9, in N/m.
+    #[schemars(range(min = 1e-12, max = 1e15))]
+    pub spring: f64,
+    /// Dashpot coefficient η of Harada 2007, Eq. 10, in N·s/m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e12))]
+    pub damping: Option<f64>,
+    /// Speed after over speed before a head-on collision; sets η for two grains and for a wall so that both give it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.001, max = 1.0))]
+    pub restitution: Option<f64>,
+    #[serde(default)]
+    pub dashpot: Dashpot,
+    /// Force against the tangential relative velocity at a contact (Green 2012), N·s/m.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e12))]
+    pub shear: f64,
+    /// Pull towards a touching grain, times the distance of the centers (Green 2012), N/m.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e12))]
+    pub attraction: f64,
+    /// Rate at which every grain's velocity fades (Green 2012's global damping), 1/s.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub global_damping: f64,
+}
+
+fn sand() -> f64 {
+    2500.0
+}
+
+/// Which part of the relative velocity the dashpot resists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Dashpot {
+    /// All of it, as Harada 2007, Eq. 10 is written.
+    #[default]
+    Full,
+    /// Its normal part only, as in linear spring-dashpot models of the literature.
+    Normal,
+}
+
+/// Grains that are there from the start.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    pub shape: Shape,
+    /// Metres per second; zero when left out. A particle file's own velocities are added to it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub velocity: Option<Coordinates>,
+    #[serde(default)]
+    pub arrangement: Arrangement,
+    /// Distance of neighbors on the lattice, metres; a grain's diameter when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-9, max = 1e6))]
+    pub spacing: Option<f64>,
+    /// Random displacement of lattice points, as a share of the spacing.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 0.5))]
+    pub jitter: f64,
+    /// Share of the shape's volume that a random arrangement tries to fill with grains.
+    #[serde(default = "quarter")]
+    #[schemars(range(min = 0.001, max = 0.5))]
+    pub fraction: f64,
+}
+
+fn quarter() -> f64 {
+    0.25
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Arrangement {
+    /// A square or cubic lattice.
+    #[default]
+    Lattice,
+    /// Random points no nearer than a diameter (random sequential addition), seeded.
+    Random,
+}
+
+/// Where a body's grains are.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Shape {
+    Box {
+        min: Coordinates,
+        max: Coordinates,
+    },
+    /// A ball; a disc in 2D.
+    Sphere {
+        center: Coordinates,
+        #[schemars(range(min = 1e-9, max = 1e6))]
+        radius: f64,
+    },
+    /// 3D only.
+    Cylinder {
+        /// Center of the first end, metres.
+        from: Coordinates,
+        /// Center of the other end, metres.
+        to: Coordinates,
+        #[schemars(range(min = 1e-9, max = 1e6))]
+        radius: f64,
+    },
+    /// A closed triangle mesh (OBJ, PLY, STL) filled with grains; 3D only.
+    Mesh {
+        /// Path, relative to the scene file.
+        file: String,
+        #[serde(default)]
+        placement: Placement,
+    },
+    /// Particles from a file: PLY, CSV (x, y, z, optional vx, vy, vz, id) or NPY (N×2 or N×3).
+    Particles {
+        /// Path, relative to the scene file.
+        file: String,
+        #[serde(default)]
+        placement: Placement,
+    },
+}
+
+/// Size, turn and place of something read from a file: scaled, then turned, then moved.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Placement {
+    #[schemars(range(min = 1e-9, max = 1e9))]
+    pub scale: f64,
+    /// Degrees about x, then y, then z.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotate: Option<Coordinates>,
+    /// Metres.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub translate: Option<Coordinates>,
+}
+
+impl Default for Placement {
+    fn default() -> Self {
+        Self {
+            scale: 1.0,
+            rotate: None,
+            translate: None,
+        }
+    }
+}
+
+/// An obstacle; grains meet it with the same contact law as each other.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Collider {
+    /// For events that move it.
+    #[serde(default)]
+    pub name: String,
+    pub shape: ColliderShape,
+    /// Piecewise linear motion; before the first and after the last point it rests.
+    #[serde(default)]
+    pub path: Vec<PathPoint>,
+    /// `#rrggbb`.
+    #[serde(default = "steel")]
+    pub color: String,
+    /// Whether frames show it.
+    #[serde(default = "yes")]
+    pub visible: bool,
+}
+
+fn steel() -> String {
+    "#8a8f98".into()
+}
+fn yes() -> bool {
+    true
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum ColliderShape {
+    /// Solid on the side that the normal points away from.
+    Plane {
+        point: Coordinates,
+        normal: Coordinates,
+    },
+    Box {
+        min: Coordinates,
+        max: Coordinates,
+    },
+    Sphere {
+        center: Coordinates,
+        #[schemars(range(min = 1e-9, max = 1e6))]
+        radius: f64,
+    },
+    /// A closed triangle mesh (OBJ, PLY, STL); 3D only.
+    Mesh {
+        /// Path, relative to the scene file.
+        file: String,
+        #[serde(default)]
+        placement: Placement,
+    },
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PathPoint {
+    /// Seconds.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub at: f64,
+    /// Metres from where the collider's shape places it.
+    pub offset: Coordinates,
+}
+
+/// A disc (a line in 2D) that lets grains in, layer by layer, one spacing apart.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Emitter {
+    /// For events that switch it.
+    pub name: String,
+    pub center: Coordinates,
+    /// Metres; of the disc.
+    #[schemars(range(min = 1e-9, max = 1e6))]
+    pub radius: f64,
+    /// Metres per second; grains start with it, and the disc stands across it.
+    pub velocity: Coordinates,
+    /// Distance of grains, metres; a grain's diameter, and a tenth more, when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-9, max = 1e6))]
+    pub spacing: Option<f64>,
+    /// Whether it flows from the start; events switch it.
+    #[serde(default = "yes")]
+    pub on: bool,
+}
+
+/// Something that happens at a time. One event may do several things.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Event {
+    /// Seconds.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub at: f64,
+    /// New values of parameters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub set: Option<Change>,
+    /// Drops a ball of grains (Green 2012's key 3).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drop: Option<Drop>,
+    /// Switches an emitter on or off.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub emitter: Option<Switch>,
+    /// Moves a collider.
+    #[serde(default, rename = "move", skip_serializing_if = "Option::is_none")]
+    pub move_collider: Option<Move>,
+}
+
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Change {
+    /// Metres per second squared.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gravity: Option<Coordinates>,
+    /// N/m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-12, max = 1e15))]
+    pub spring: Option<f64>,
+    /// N·s/m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e12))]
+    pub damping: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.001, max = 1.0))]
+    pub restitution: Option<f64>,
+    /// N·s/m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e12))]
+    pub shear: Option<f64>,
+    /// N/m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e12))]
+    pub attraction: Option<f64>,
+    /// 1/s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub global_damping: Option<f64>,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Drop {
+    pub center: Coordinates,
+    /// Metres; of the ball.
+    #[schemars(range(min = 1e-9, max = 1e6))]
+    pub radius: f64,
+    /// Metres per second; zero when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub velocity: Option<Coordinates>,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Switch {
+    pub name: String,
+    pub on: bool,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Move {
+    pub collider: String,
+    /// Metres, from where it is.
+    pub by: Coordinates,
+    /// Seconds that the move takes.
+    #[schemars(range(min = 1e-9, max = 1e9))]
+    pub during: f64,
+}
+
+/// How neighbors are found: which voxel a point falls in, and how a voxel keeps its particles.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Neighbors {
+    #[serde(default)]
+    pub addressing: Addressing,
+    #[serde(default)]
+    pub storage: Storage,
+    /// The axis across which `sliced` cuts; y when left out, as in Harada 2007.
+    #[serde(default)]
+    pub slicing_axis: Axis,
+    /// Indices that a voxel of a `pool` can hold.
+    #[serde(default = "four")]
+    #[schemars(range(min = 1, max = 64))]
+    pub slots: u32,
+}
+
+fn four() -> u32 {
+    4
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Addressing {
+    /// The whole domain (Green 2012).
+    #[default]
+    Uniform,
+    /// The bounding box of each slice (Harada 2007).
+    Sliced,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Storage {
+    /// Count, prefix sum, scatter: particles stand in voxel order (Green 2012).
+    #[default]
+    Counting,
+    /// A fixed number of indices a voxel (Harada 2007's index pool).
+    Pool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Axis {
+    X,
+    #[default]
+    Y,
+    Z,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Time {
+    /// Seconds of simulated time; with `fps` it gives the number of frames.
+    #[schemars(range(min = 1e-9, max = 1e9))]
+    pub duration: f64,
+    /// Frames per simulated second.
+    #[schemars(range(min = 1e-6, max = 1e9))]
+    pub fps: f64,
+    /// Seconds; derived from the contact's duration when left out. Shortened so that steps land on frame times.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-12, max = 1e3))]
+    pub step: Option<f64>,
+    /// Steps in the shortest contact, when `step` is left out; fewer than 20 is refused.
+    #[schemars(range(min = 20, max = 100_000))]
+    pub steps_per_contact: u32,
+    pub integrator: Integrator,
+}
+
+impl Default for Time {
+    fn default() -> Self {
+        Self {
+            duration: 4.0,
+            fps: 30.0,
+            step: None,
+            steps_per_contact: 40,
+            integrator: Integrator::default(),
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Integrator {
+    /// First order, one force pass a step (Rojas 2013, Eq. 7).
+    #[default]
+    SymplecticEuler,
+    /// Second order, one force pass a step and an acceleration kept a particle.
+    VelocityVerlet,
+}
+
+/// How frames look.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Render {
+    /// Width and height, pixels.
+    pub size: [u32; 2],
+    pub view: View,
+    pub splat: Splat,
+    /// Drawn radius over the grain's radius.
+    #[schemars(range(min = 0.01, max = 10.0))]
+    pub splat_scale: f64,
+    pub color: Color,
+    pub camera: Camera,
+    pub background: Background,
+    pub show: Show,
+    /// Samples along each side of a pixel.
+    #[schemars(range(min = 1, max = 4))]
+    pub antialias: u32,
+    /// Direction towards the light; chosen to suit the camera when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub light: Option<[f64; 3]>,
+}
+
+impl Default for Render {
+    fn default() -> Self {
+        Self {
+            size: [1280, 720],
+            view: View::default(),
+            splat: Splat::default(),
+            splat_scale: 1.0,
+            color: Color::default(),
+            camera: Camera::default(),
+            background: Background::default(),
+            show: Show::default(),
+            antialias: 2,
+            light: None,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum View {
+    #[default]
+    Scene,
+    /// The index pool as a heatmap (Harada 2007, Figure 7).
+    Pool,
+    /// The scene, and the pool beside it.
+    Both,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Splat {
+    /// Lit spheres with true depth (Green 2012).
+    #[default]
+    Sphere,
+    /// Flat discs (Rojas 2013).
+    Disc,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Color {
+    /// The column that colors the particles: see `sliceflow scenes --columns`.
+    pub by: String,
+    /// A color map by name.
+    pub map: String,
+    /// Values at the two ends of the map; derived from the scene, then fixed, when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<[f64; 2]>,
+    /// Whether a color bar with numbers and unit is drawn.
+    pub legend: bool,
+}
+
+impl Default for Color {
+    fn default() -> Self {
+        Self {
+            by: "speed".into(),
+            map: "viridis".into(),
+            range: None,
+            legend: true,
+        }
+    }
+}
+
+/// Where the eye is; it frames the domain when `eye` and `target` are left out.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Camera {
+    pub projection: Projection,
+    /// Looks down this axis (an orthographic view as in Harada 2007, Figure 2).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axis: Option<Axis>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub eye: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<[f64; 3]>,
+    /// Vertical angle of view, degrees.
+    #[schemars(range(min = 1.0, max = 150.0))]
+    pub field_of_view: f64,
+    /// Height of an orthographic view, metres; frames the domain when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-9, max = 1e9))]
+    pub height: Option<f64>,
+    /// Turn about the vertical axis through the target, degrees per simulated second.
+    pub orbit: f64,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self {
+            projection: Projection::default(),
+            axis: None,
+            eye: None,
+            target: None,
+            field_of_view: 35.0,
+            height: None,
+            orbit: 0.0,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Projection {
+    #[default]
+    Perspective,
+    Orthographic,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Background {
+    /// A soft grey gradient.
+    #[default]
+    Studio,
+    Dark,
+    White,
+    Black,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Show {
+    /// The domain box, in red lines (Harada 2007, Figure 2).
+    pub domain: bool,
+    /// A floor that takes shadows, at the domain's lower side (3D).
+    pub floor: bool,
+    /// The slices that `sliced` allocated, as translucent green boxes (Harada 2007, Figure 2).
+    pub slices: bool,
+    pub colliders: bool,
+    /// Name of the scene, time and particle count in a corner.
+    pub caption: bool,
+}
+
+impl Default for Show {
+    fn default() -> Self {
+        Self {
+            domain: true,
+            floor: true,
+            slices: false,
+            colliders: true,
+            caption: true,
+        }
+    }
+}
