@@ -1,0 +1,63 @@
+//! Buffers by name: the same name in WGSL, on the host, as wgpu label and in the plan.
+
+use std::collections::BTreeMap;
+
+use crate::error::{Error, Result};
+use crate::gpu::Gpu;
+
+/// How a buffer is used besides being bound.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Usage {
+    Uniform,
+    Storage,
+}
+
+/// The buffers of a simulation.
+#[derive(Default)]
+pub struct Buffers {
+    by_name: BTreeMap<String, wgpu::Buffer>,
+}
+
+impl Buffers {
+    /// Creates a zeroed buffer of `bytes` bytes.
+    pub fn create(&mut self, gpu: &Gpu, name: &str, bytes: u64, usage: Usage) {
+        let binding = match usage {
+            Usage::Uniform => wgpu::BufferUsages::UNIFORM,
+            Usage::Storage => wgpu::BufferUsages::STORAGE,
+        };
+        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(name),
+            size: bytes,
+            usage: binding | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        self.by_name.insert(name.to_owned(), buffer);
+    }
+
+    /// The buffer that `user` asks for.
+    pub fn get(&self, name: &str, user: &str) -> Result<&wgpu::Buffer> {
+        self.by_name.get(name).ok_or_else(|| Error::Shader {
+            message: format!("shaders/{user} binds `{name}`, but the plan has no such buffer"),
+        })
+    }
+
+    pub fn contains(&self, name: &str) -> bool {
+        self.by_name.contains_key(name)
+    }
+
+    /// Writes `values` at element `first` of a buffer of such elements.
+    pub fn write<T: bytemuck::NoUninit>(
+        &self,
+        gpu: &Gpu,
+        name: &str,
+        first: usize,
+        values: &[T],
+    ) -> Result<()> {
+        if !values.is_empty() {
+            let offset = (first * size_of::<T>()) as u64;
+            let bytes = bytemuck::cast_slice(values);
+            gpu.queue.write_buffer(self.get(name, "(host)")?, offset, bytes);
+        }
+        Ok(())
+    }
+}

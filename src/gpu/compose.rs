@@ -1,0 +1,170 @@
+//! Puts shader modules together from files, with a true place for every line.
+//!
+//! Three directives, each alone on its line:
+//! - `#import common/vector` takes in `shaders/common/vector.wgsl` once; `#import <addressing>` takes the file that
+//!   the plan chose for that role, so that physics never names a grid;
+//! - `#if flag`, `#if !flag`, `#else`, `#end` keep lines only where the plan set the flag;
+//! - constants that the plan set stand in front as `const NAME = value;`.
+//!
+//! The libraries that do this (naga_oil, wesl) rename what they import; here a buffer has one name everywhere, and
+//! the reflection in [`super::reflect`] depends on that.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use include_dir::{Dir, include_dir};
+
+use crate::error::{Error, Result};
+
+static SHADERS: Dir = include_dir!("$CARGO_MANIFEST_DIR/shaders");
+
+/// What a plan chose: which lines and files a shader is made of.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Variant {
+    pub flags: BTreeSet<&'static str>,
+    /// WGSL constants of type u32.
+    pub constants: BTreeMap<&'static str, u32>,
+    /// Role → file without its ending: `addressing` → `cells/sliced`.
+    pub roles: BTreeMap<&'static str, String>,
+}
+
+impl Variant {
+    pub fn flag(&mut self, name: &'static str, on: bool) -> &mut Self {
+        if on {
+            self.flags.insert(name);
+        }
+        self
+    }
+
+    pub fn constant(&mut self, name: &'static str, value: u32) -> &mut Self {
+        self.constants.insert(name, value);
+        self
+    }
+
+    pub fn role(&mut self, name: &'static str, file: impl Into<String>) -> &mut Self {
+        self.roles.insert(name, file.into());
+        self
+    }
+}
+
+/// One module's text, and for each of its lines the file and line that the author wrote.
+#[derive(Debug, Clone)]
+pub struct Composed {
+    pub path: String,
+    pub text: String,
+    places: Vec<(String, usize)>,
+}
+
+impl Composed {
+    /// `file:line` of a line of `text`, counted from one.
+    pub fn place(&self, line: usize) -> String {
+        match self.places.get(line.saturating_sub(1)) {
+            Some((file, line)) => format!("shaders/{file}:{line}"),
+            None => format!("shaders/{}", self.path),
+        }
+    }
+}
+
+/// Every shader file, by path below `shaders/`, without its ending.
+pub fn files() -> Vec<String> {
+    fn walk(dir: &Dir, into: &mut Vec<String>) {
+        for file in dir.files() {
+            if let Some(path) = file.path().to_str().and_then(|p| p.strip_suffix(".wgsl")) {
+                into.push(path.to_owned());
+            }
+        }
+        for dir in dir.dirs() {
+            walk(dir, into);
+        }
+    }
+    let mut found = Vec::new();
+    walk(&SHADERS, &mut found);
+    found.sort();
+    found
+}
+
+/// Composes `shaders/{path}.wgsl`.
+pub fn compose(path: &str, variant: &Variant) -> Result<Composed> {
+    let mut composed = Composed {
+        path: format!("{path}.wgsl"),
+        text: String::new(),
+        places: Vec::new(),
+    };
+    for (name, value) in &variant.constants {
+        composed.push(&format!("const {name}: u32 = {value}u;"), "(plan)", 0);
+    }
+    let mut seen = BTreeSet::new();
+    composed.import(path, variant, &mut seen, "(plan)")?;
+    Ok(composed)
+}
+
+impl Composed {
+    fn push(&mut self, line: &str, file: &str, number: usize) {
+        self.text.push_str(line);
+        self.text.push('\n');
+        self.places.push((file.to_owned(), number));
+    }
+
+    fn import(
+        &mut self,
+        path: &str,
+        variant: &Variant,
+        seen: &mut BTreeSet<String>,
+        from: &str,
+    ) -> Result<()> {
+        if !seen.insert(path.to_owned()) {
+            return Ok(());
+        }
+        let file = format!("{path}.wgsl");
+        let fail = |what: String| Error::Shader { message: what };
+        let source = SHADERS
+            .get_file(&file)
+            .and_then(|found| found.contents_utf8())
+            .ok_or_else(|| fail(format!("{from}: there is no shaders/{file}")))?;
+        // One entry for each open `#if`: whether its lines are kept.
+        let mut open: Vec<bool> = Vec::new();
+        for (index, line) in source.lines().enumerate() {
+            let number = index + 1;
+            let place = format!("shaders/{file}:{number}");
+            let mut words = line.split_whitespace();
+            let keep = open.iter().all(|&kept| kept);
+            match (words.next(), words.next()) {
+                (Some("#if"), Some(flag)) => open.push(match flag.strip_prefix('!') {
+                    Some(flag) => !variant.flags.contains(flag),
+                    None => variant.flags.contains(flag),
+                }),
+                (Some("#else"), None) => match open.last_mut() {
+                    Some(kept) => *kept = !*kept,
+                    None => return Err(fail(format!("{place}: #else without #if"))),
+                },
+                (Some("#end"), None) => {
+                    if open.pop().is_none() {
+                        return Err(fail(format!("{place}: #end without #if")));
+                    }
+                }
+                (Some("#import"), Some(what)) => {
+                    if !keep {
+                        continue;
+                    }
+                    let role = what.strip_prefix('<').and_then(|w| w.strip_suffix('>'));
+                    let target = match role {
+                        Some(role) => variant.roles.get(role).map(String::as_str).ok_or_else(|| {
+                            fail(format!("{place}: the plan gives no file for the role <{role}>"))
+                        })?,
+                        None => what,
+                    };
+                    self.import(target, variant, seen, &place)?;
+                }
+                (Some(word), _) if word.starts_with('#') => {
+                    return Err(fail(format!("{place}: `{line}` is no directive")));
+                }
+                _ if keep => self.push(line, &file, number),
+                _ => {}
+            }
+        }
+        if open.is_empty() {
+            Ok(())
+        } else {
+            Err(fail(format!("shaders/{file}: an #if has no #end")))
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! The only user of wgpu: device, composed and reflected shaders, named buffers, passes, timing, readback.
+//!
+//! The host never writes a binding number, a bind group layout or a workgroup size: a [`Pass`] reads them from its
+//! shader and binds each buffer by the name that it has everywhere.
+
+pub mod buffers;
+pub mod compose;
+pub mod device;
+pub mod pass;
+pub mod readback;
+pub mod reflect;
+pub mod shared;
+pub mod timing;
+
+pub use buffers::Buffers;
+pub use compose::Variant;
+pub use device::{AdapterChoice, Gpu};
+pub use pass::Pass;
+pub use reflect::Shader;

@@ -1,0 +1,273 @@
+//! A parsed, validated shader module and what it tells about itself: bindings by name, workgroup sizes, structs.
+
+use naga::proc::Layouter;
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use naga::{AddressSpace, Binding, ResourceBinding, StorageAccess, TypeInner};
+
+use super::compose::{self, Composed, Variant};
+use crate::error::{Error, Result};
+
+/// A composed module, parsed and validated without a GPU.
+pub struct Shader {
+    pub path: String,
+    pub module: naga::Module,
+    info: ModuleInfo,
+}
+
+/// One resource that an entry point uses.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Resource {
+    pub name: String,
+    pub binding: u32,
+    pub kind: ResourceKind,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ResourceKind {
+    Uniform,
+    Storage {
+        read_only: bool,
+    },
+    /// A depth or color texture; color textures are filterable unless they are sampled by loads only.
+    Texture {
+        depth: bool,
+    },
+    Sampler {
+        comparison: bool,
+    },
+}
+
+/// A struct of a shader, field by field.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct StructLayout {
+    pub name: String,
+    pub size: u32,
+    /// Name, offset, size in bytes.
+    pub fields: Vec<(String, u32, u32)>,
+}
+
+impl Shader {
+    /// Composes and validates `shaders/{path}.wgsl`; the message of an error names the author's file and line.
+    pub fn load(path: &str, variant: &Variant) -> Result<Self> {
+        Self::from_composed(&compose::compose(path, variant)?)
+    }
+
+    pub fn from_composed(composed: &Composed) -> Result<Self> {
+        let fail = |line: Option<usize>, message: String| {
+            let place = line.map_or_else(|| format!("shaders/{}", composed.path), |l| composed.place(l));
+            let text = line.and_then(|l| composed.text.lines().nth(l - 1)).unwrap_or("");
+            Error::Shader {
+                message: format!("{place}: {message}\n    {}", text.trim()),
+            }
+        };
+        let mut module = naga::front::wgsl::parse_str(&composed.text).map_err(|error| {
+            let line = error.location(&composed.text).map(|l| l.line_number as usize);
+            fail(line, error.message().to_owned())
+        })?;
+        // The author writes no binding numbers; the order of declaration gives them.
+        for (number, (_, global)) in module.global_variables.iter_mut().enumerate() {
+            if matches!(
+                global.space,
+                AddressSpace::Uniform | AddressSpace::Storage { .. } | AddressSpace::Handle
+            ) {
+                global.binding = Some(ResourceBinding {
+                    group: 0,
+                    binding: number as u32,
+                });
+            }
+        }
+        let info = Validator::new(ValidationFlags::all(), Capabilities::all())
+            .validate(&module)
+            .map_err(|error| {
+                let line = error.location(&composed.text).map(|l| l.line_number as usize);
+                let mut message = error.as_inner().to_string();
+                let mut cause: Option<&dyn std::error::Error> = std::error::Error::source(error.as_inner());
+                while let Some(inner) = cause {
+                    message = format!("{message}: {inner}");
+                    cause = inner.source();
+                }
+                fail(line, message)
+            })?;
+        Ok(Self {
+            path: composed.path.clone(),
+            module,
+            info,
+        })
+    }
+
+    fn entry_index(&self, entry: &str) -> Result<usize> {
+        let found = self.module.entry_points.iter().position(|e| e.name == entry);
+        found.ok_or_else(|| Error::Shader {
+            message: format!("shaders/{} has no entry point `{entry}`", self.path),
+        })
+    }
+
+    /// Names of the module's entry points.
+    pub fn entries(&self) -> impl Iterator<Item = &str> {
+        self.module.entry_points.iter().map(|e| e.name.as_str())
+    }
+
+    /// Threads of one workgroup of a compute entry point.
+    pub fn workgroup_threads(&self, entry: &str) -> Result<u32> {
+        let size = self.module.entry_points[self.entry_index(entry)?].workgroup_size;
+        Ok(size.iter().product())
+    }
+
+    /// What an entry point reads or writes, and nothing else.
+    pub fn resources(&self, entry: &str) -> Result<Vec<Resource>> {
+        let used = self.info.get_entry_point(self.entry_index(entry)?);
+        let mut found = Vec::new();
+        for (handle, global) in self.module.global_variables.iter() {
+            let Some(place) = &global.binding else { continue };
+            if used[handle].is_empty() {
+                continue;
+            }
+            let kind = match global.space {
+                AddressSpace::Uniform => ResourceKind::Uniform,
+                AddressSpace::Storage { access } => ResourceKind::Storage {
+                    read_only: !access.contains(StorageAccess::STORE),
+                },
+                _ => match self.module.types[global.ty].inner {
+                    TypeInner::Image { class, .. } => ResourceKind::Texture {
+                        depth: matches!(class, naga::ImageClass::Depth { .. }),
+                    },
+                    TypeInner::Sampler { comparison } => ResourceKind::Sampler { comparison },
+                    _ => continue,
+                },
+            };
+            found.push(Resource {
+                name: global.name.clone().unwrap_or_default(),
+                binding: place.binding,
+                kind,
+            });
+        }
+        Ok(found)
+    }
+
+    /// Every named struct of the module.
+    pub fn structs(&self) -> Vec<StructLayout> {
+        let mut layouter = Layouter::default();
+        if layouter.update(self.module.to_ctx()).is_err() {
+            return Vec::new();
+        }
+        let mut found = Vec::new();
+        for (_, ty) in self.module.types.iter() {
+            let (Some(name), TypeInner::Struct { members, span }) = (&ty.name, &ty.inner) else {
+                continue;
+            };
+            let built_in = |m: &naga::StructMember| matches!(m.binding, Some(Binding::BuiltIn(_) | Binding::Location { .. }));
+            if members.iter().any(built_in) {
+                continue;
+            }
+            found.push(StructLayout {
+                name: name.clone(),
+                size: *span,
+                fields: members
+                    .iter()
+                    .map(|m| (m.name.clone().unwrap_or_default(), m.offset, layouter[m.ty].size))
+                    .collect(),
+            });
+        }
+        found
+    }
+
+    /// Hands the module to the device.
+    pub fn module(&self, gpu: &super::Gpu) -> wgpu::ShaderModule {
+        let descriptor = wgpu::ShaderModuleDescriptor {
+            label: Some(&self.path),
+            source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(self.module.clone())),
+        };
+        let checks = if gpu.checked_shaders {
+            wgpu::ShaderRuntimeChecks::checked()
+        } else {
+            wgpu::ShaderRuntimeChecks::unchecked()
+        };
+        // SAFETY: the modules are our own; the tests run each of them with all checks on.
+        unsafe { gpu.device.create_shader_module_trusted(descriptor, checks) }
+    }
+
+    /// Layout and bind group for what the entry points use, each resource bound by its name.
+    ///
+    /// `visibility` is who sees them; `textures` are the textures and samplers, by name.
+    pub(super) fn bind(
+        &self,
+        gpu: &super::Gpu,
+        entries: &[&str],
+        visibility: wgpu::ShaderStages,
+        buffers: &super::Buffers,
+        textures: &[(&str, wgpu::BindingResource<'_>)],
+    ) -> Result<(wgpu::PipelineLayout, wgpu::BindGroup)> {
+        let mut resources: Vec<Resource> = Vec::new();
+        for entry in entries {
+            for resource in self.resources(entry)? {
+                if !resources.contains(&resource) {
+                    resources.push(resource);
+                }
+            }
+        }
+        let layout_entries: Vec<_> = resources
+            .iter()
+            .map(|resource| wgpu::BindGroupLayoutEntry {
+                binding: resource.binding,
+                visibility,
+                ty: resource.kind.layout(),
+                count: None,
+            })
+            .collect();
+        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(&self.path),
+            entries: &layout_entries,
+        });
+        let mut bound = Vec::new();
+        for resource in &resources {
+            let given = textures.iter().find(|(name, _)| *name == resource.name);
+            let what = match given {
+                Some((_, texture)) => texture.clone(),
+                None => buffers.get(&resource.name, &self.path)?.as_entire_binding(),
+            };
+            bound.push(wgpu::BindGroupEntry {
+                binding: resource.binding,
+                resource: what,
+            });
+        }
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(&self.path),
+            layout: &layout,
+            entries: &bound,
+        });
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(&self.path),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        Ok((pipeline_layout, group))
+    }
+}
+
+impl ResourceKind {
+    fn layout(self) -> wgpu::BindingType {
+        let buffer = |ty| wgpu::BindingType::Buffer {
+            ty,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
+        match self {
+            Self::Uniform => buffer(wgpu::BufferBindingType::Uniform),
+            Self::Storage { read_only } => buffer(wgpu::BufferBindingType::Storage { read_only }),
+            Self::Texture { depth } => wgpu::BindingType::Texture {
+                sample_type: if depth {
+                    wgpu::TextureSampleType::Depth
+                } else {
+                    wgpu::TextureSampleType::Float { filterable: true }
+                },
+                view_dimension: wgpu::TextureViewDimension::D2,
+                multisampled: false,
+            },
+            Self::Sampler { comparison } => wgpu::BindingType::Sampler(if comparison {
+                wgpu::SamplerBindingType::Comparison
+            } else {
+                wgpu::SamplerBindingType::Filtering
+            }),
+        }
+    }
+}
