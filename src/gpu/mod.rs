@@ -6,6 +6,7 @@
 pub mod buffers;
 pub mod compose;
 pub mod device;
+pub mod parts;
 pub mod pass;
 pub mod readback;
 pub mod reflect;
@@ -15,5 +16,6 @@ pub mod timing;
 pub use buffers::Buffers;
 pub use compose::Variant;
 pub use device::{AdapterChoice, Gpu};
+pub use parts::{BufferPlan, Items, PassPlan};
 pub use pass::Pass;
 pub use reflect::Shader;
