@@ -1,1 +1,3 @@
-pub fn x(){}
+pub mod error;
+pub mod output;
+pub mod scene;
