@@ -3,7 +3,11 @@
 //! `load` reads files, [`surface`] answers where the inside is and how far the surface.
 
 mod load;
+#[cfg(test)]
+pub(crate) mod samples;
 pub mod surface;
+#[cfg(test)]
+mod tests;
 
 use std::collections::HashMap;
 use std::path::Path;

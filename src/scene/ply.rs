@@ -20,9 +20,16 @@ pub struct PlyFile {
 pub fn read(path: &Path) -> Result<PlyFile, String> {
     let file = File::open(path).map_err(|error| format!("{}: {error}", path.display()))?;
     let explain = |error: ParseError| {
+        // Its first line tells where; the others repeat the text.
+        let error = error.to_string();
         format!(
-            "{} is not a readable PLY file: {error}; export it again as PLY 1.0",
-            path.display()
+            "{} is not a readable PLY file: {}; export it again as PLY 1.0, with finite numbers",
+            path.display(),
+            error
+                .lines()
+                .next()
+                .unwrap_or_default()
+                .trim_end_matches('.')
         )
     };
 

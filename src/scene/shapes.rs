@@ -1,6 +1,8 @@
 //! Shapes filled with grains, on a lattice or at random.
 
 mod spots;
+#[cfg(test)]
+mod tests;
 
 use std::f64::consts::PI;
 
@@ -74,7 +76,9 @@ pub fn lattice(
 }
 
 /// Overlapping draws in a row after which a region counts as full.
-const CROWDED: usize = 1000;
+///
+/// More reach farther and take longer: on 100,000 grains, 1,000 end at 0.27 of the volume (0.6 s), 10,000 at 0.31 (5 s).
+const CROWDED: usize = 10_000;
 /// Draws beside the region in a row after which it counts as too thin for a grain.
 const MISSED: usize = 100_000;
 
@@ -164,11 +168,11 @@ impl<'a> Interior<'a> {
             Region::Mesh(mesh) => Some(Surface::new(mesh)),
             _ => None,
         };
-        // 1e-9 of the grain, and what a coordinate far from zero can resolve: mesh files mostly hold f32.
+        // 1e-9 of the grain, what a coordinate far from zero can resolve, and for meshes that their files hold f32.
         let far = low.abs().max(high.abs()).max_element();
-        let resolution = match surface {
-            Some(_) => f64::from(f32::EPSILON),
-            None => 4.0 * f64::EPSILON,
+        let file = match surface {
+            Some(_) => f64::from(f32::EPSILON) * (high - low).max_element(),
+            None => 0.0,
         };
         let flat = |point: DVec3| match dimensions {
             Dimensions::Two => point.with_z(0.0),
@@ -179,7 +183,7 @@ impl<'a> Interior<'a> {
             surface,
             dimensions,
             radius,
-            tolerance: 1e-9 * radius + resolution * far,
+            tolerance: 1e-9 * radius + 4.0 * f64::EPSILON * far + file,
             min: flat(low + radius),
             max: flat(high - radius),
         }

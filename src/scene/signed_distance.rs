@@ -84,3 +84,68 @@ fn fill(row: &mut [f32], surface: &Surface, first: DVec3, cell: f64, margin: f64
         *value = signed as f32;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::mesh::samples::{ball, cube};
+
+    /// The largest difference to `exact` over points within `margin` of the surface.
+    fn error(field: &SignedDistance, margin: f64, exact: impl Fn(DVec3) -> f64) -> f64 {
+        let mut worst: f64 = 0.0;
+        for i in 0..=40 {
+            for j in 0..=40 {
+                for k in 0..=40 {
+                    let point = (DVec3::new(i.into(), j.into(), k.into()) / 20.0 - 1.0) * 1.2;
+                    let distance = exact(point);
+                    if distance.abs() < margin {
+                        worst = worst.max((field.sample(point) - distance).abs());
+                    }
+                }
+            }
+        }
+        worst
+    }
+
+    #[test]
+    fn a_ball_is_met_to_second_order() {
+        let mesh = ball(DVec3::ZERO, 1.0, 6);
+        let exact = |point: DVec3| point.length() - 1.0;
+        let coarse = SignedDistance::new(&mesh, 0.1, 0.4);
+        let fine = SignedDistance::new(&mesh, 0.05, 0.4);
+        // Trilinear interpolation errs by at most (cell²/8)·Σ|f''| = cell²/(4·distance from the center).
+        assert!(error(&coarse, 0.2, exact) < 0.1 * 0.1 / (4.0 * 0.65));
+        assert!(error(&fine, 0.2, exact) < 0.05 * 0.05 / (4.0 * 0.7) + 3e-4);
+    }
+
+    #[test]
+    fn nodes_of_a_box_are_exact_with_nodes_on_its_faces_edges_and_corners() {
+        let half = DVec3::new(1.0, 0.5, 0.75);
+        let exact = |point: DVec3| {
+            let beyond = point.abs() - half;
+            beyond.max(DVec3::ZERO).length() + beyond.max_element().min(0.0)
+        };
+        let margin = 0.25;
+        let field = SignedDistance::new(&cube(-half, half), 0.125, margin);
+        assert_eq!(field.size, [21, 13, 17]);
+        let mut index = 0;
+        for k in 0..17 {
+            for j in 0..13 {
+                for i in 0..21 {
+                    let node = field.min + DVec3::new(i.into(), j.into(), k.into()) * field.cell;
+                    let expected = exact(node).clamp(-margin, margin);
+                    let found = f64::from(field.values[index]);
+                    assert!(
+                        (found - expected).abs() < 1e-6,
+                        "{node}: {found} {expected}"
+                    );
+                    assert!((field.sample(node) - found).abs() < 1e-12);
+                    index += 1;
+                }
+            }
+        }
+        // Beside a face, away from its edges, the distance is linear, and so is the interpolation.
+        assert!((field.sample(DVec3::new(0.03, 0.61, 0.02)) - 0.11).abs() < 1e-6);
+        assert!((field.sample(DVec3::new(0.03, 9.0, 0.02)) - 0.25).abs() < 1e-6);
+    }
+}

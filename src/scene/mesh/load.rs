@@ -93,6 +93,15 @@ fn from_obj(path: &Path) -> Result<Polygons, String> {
 
 fn from_ply(path: &Path) -> Result<Polygons, String> {
     let file = ply::read(path)?;
+    if let Some(missing) = ["x", "y", "z"]
+        .into_iter()
+        .find(|axis| !file.properties.iter().any(|property| property == axis))
+    {
+        return Err(format!(
+            "{}: vertices have no property {missing}; export the mesh with x, y and z",
+            path.display()
+        ));
+    }
     let vertices = file
         .vertices
         .iter()
@@ -114,9 +123,8 @@ fn from_stl(path: &Path) -> Result<Polygons, String> {
     } else if bytes.starts_with(b"solid") {
         bytes.insert(5, b' ');
     }
-    let mesh = stl_io::read_stl(&mut Cursor::new(bytes)).map_err(|error| {
-        format!("{name} is not a readable STL file: {error}; export it again")
-    })?;
+    let mesh = stl_io::read_stl(&mut Cursor::new(bytes))
+        .map_err(|error| format!("{name} is not a readable STL file: {error}; export it again"))?;
     let vertices = mesh
         .vertices
         .iter()

@@ -1,9 +1,10 @@
 //! Where a closed mesh's inside is, and how far its surface, through a tree of bounding boxes.
 //!
-//! Inside is where the winding number is not zero. It is counted along lines parallel to x, in two steps that use
-//! comparisons of stored numbers only: a plane z = const cuts each *edge* in one point, whichever triangle asks, so that
-//! the cut is made of closed polygons; a line y = const crosses each of their *corners'* connections once or not at
-//! all. So a line that meets faces, edges or vertices exactly still enters as often as it leaves.
+//! Inside is where the winding number is not zero. It is counted along lines parallel to x, in two steps. A plane
+//! z = const cuts each edge in one point, the same bits whichever triangle asks, so that the cut is made of closed
+//! polygons. A line y = const in that plane crosses a polygon's side if one of the side's ends is above it and the other
+//! is not, so that it goes up through a closed polygon as often as down. Hence a line that meets faces, edges or
+//! vertices exactly still leaves as often as it enters, whatever the rounding.
 
 use glam::DVec3;
 
@@ -12,6 +13,7 @@ use super::Mesh;
 /// Triangles in a leaf.
 const LEAF: usize = 4;
 
+/// A mesh's triangles in a tree of boxes.
 pub struct Surface {
     /// The root first; of an inner node, the first child stands right behind it.
     nodes: Vec<Node>,
@@ -110,6 +112,7 @@ impl Surface {
         Line(crossings)
     }
 
+    /// For one point; for many with the same y and z, ask their [`Surface::line`].
     pub fn contains(&self, point: DVec3) -> bool {
         self.line(point.y, point.z).contains(point.x)
     }
