@@ -222,7 +222,7 @@ impl<'a> Interior<'a> {
             return vec![0.0];
         }
         let (low, high) = (self.min[axis], self.max[axis]);
-        let fits = |length: f64| ((length + 2.0 * self.tolerance) / spacing + 1e-9).floor();
+        let fits = |length: f64| ((length + 2.0 * self.tolerance) / spacing).floor();
         let steps = fits(high - low);
         let (anchor, before, steps) = match self.region {
             Region::Box { .. } => (low, 0.0, steps),

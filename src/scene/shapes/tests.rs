@@ -288,7 +288,7 @@ fn grains_that_touch_do_not_overlap() {
     );
 }
 
-/// The bunny with four facets for each, sixteen, …: about the Stanford scan's size.
+/// The bunny with each facet split in sixteen: about as many as the Stanford scan has.
 #[test]
 fn a_bunny_of_59_thousand_triangles_is_filled_in_seconds() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/meshes/bunny.obj");
