@@ -3,7 +3,12 @@
 //! Everything in a [`Scene`] is finite, in SI units, and relative to [`Scene::origin`], which was subtracted in f64.
 
 pub mod column;
+pub mod mesh;
 pub mod model;
+pub mod particle_file;
+mod ply;
+pub mod shapes;
+pub mod signed_distance;
 
 use glam::{DVec3, Vec3};
 use model::{Addressing, Axis, Dashpot, Integrator, Render, SceneFile, Storage, Wall};
