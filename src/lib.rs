@@ -1,1 +1,4 @@
-pub fn x(){}
+//! Offline, headless particle simulator and renderer on wgpu.
+
+pub mod error;
+pub mod scene;
