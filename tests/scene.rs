@@ -11,7 +11,12 @@ use sliceflow::scene::{check, color_maps, library, load};
 
 fn parse(scene: &Value, overrides: &[&str]) -> Result<Scene, Error> {
     let overrides: Vec<String> = overrides.iter().map(|one| one.to_string()).collect();
-    load::parse(&scene.to_string(), "test.json", Path::new("tests"), &overrides)
+    load::parse(
+        &scene.to_string(),
+        "test.json",
+        Path::new("tests"),
+        &overrides,
+    )
 }
 
 fn valid(scene: &Value, overrides: &[&str]) -> Scene {
@@ -19,7 +24,9 @@ fn valid(scene: &Value, overrides: &[&str]) -> Scene {
 }
 
 fn message(scene: &Value, overrides: &[&str]) -> String {
-    parse(scene, overrides).expect_err("the scene should be refused").to_string()
+    parse(scene, overrides)
+        .expect_err("the scene should be refused")
+        .to_string()
 }
 
 /// A 3D box of 2 m with a block of 4³ grains.
@@ -33,13 +40,20 @@ fn block() -> Value {
 }
 
 fn assert_near(value: f64, expected: f64) {
-    assert!((value - expected).abs() <= 1e-9 * expected.abs(), "{value} is not {expected}");
+    assert!(
+        (value - expected).abs() <= 1e-9 * expected.abs(),
+        "{value} is not {expected}"
+    );
 }
 
 #[test]
 fn broken_scenes_are_explained() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/broken_scenes");
-    let mut files: Vec<_> = folder.read_dir().unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut files: Vec<_> = folder
+        .read_dir()
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
     files.sort();
     assert!(files.len() >= 10);
     for file in files {
@@ -53,7 +67,11 @@ fn broken_scenes_are_explained() {
 #[test]
 fn scenes_that_ship_load() {
     let entries = library::entries().unwrap_or_else(|error| panic!("{error}"));
-    for (name, particles) in [("column_2d", 2_000), ("harada_figure_2", 65_536), ("harada_figure_2_small", 8_192)] {
+    for (name, particles) in [
+        ("column_2d", 2_000),
+        ("harada_figure_2", 65_536),
+        ("harada_figure_2_small", 8_192),
+    ] {
         let entry = entries.iter().find(|entry| entry.name == name).expect(name);
         assert_eq!(entry.particles, particles, "{name}");
     }
@@ -61,7 +79,11 @@ fn scenes_that_ship_load() {
     assert_eq!(green.particles.len(), 65_536);
     assert!(green.capacity > 65_536);
     for entry in entries {
-        assert!(!entry.description.is_empty() && !entry.source.is_empty(), "{}", entry.name);
+        assert!(
+            !entry.description.is_empty() && !entry.source.is_empty(),
+            "{}",
+            entry.name
+        );
         let scene = load::load(Path::new(&entry.name), &[]).unwrap();
         assert_eq!(scene.notes, [""; 0], "{}", entry.name);
         let value: Value = serde_json::from_str(library::find(&entry.name).unwrap()).unwrap();
@@ -73,7 +95,10 @@ fn scenes_that_ship_load() {
 fn an_unknown_name_suggests_the_nearest() {
     let error = load::load(Path::new("gren_cube"), &[]).unwrap_err();
     assert!(matches!(error, Error::Usage { .. }));
-    assert!(error.to_string().contains("did you mean `green_cube`?"), "{error}");
+    assert!(
+        error.to_string().contains("did you mean `green_cube`?"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -105,7 +130,13 @@ fn lattice_fills_the_box() {
     assert_eq!(scene.particles.len(), 64);
     assert_eq!(scene.capacity, 64);
     assert!(scene.particles.velocity.iter().all(|v| *v == Vec3::X));
-    assert!(scene.particles.position.iter().any(|p| p.distance(Vec3::splat(0.05)) < 1e-6));
+    assert!(
+        scene
+            .particles
+            .position
+            .iter()
+            .any(|p| p.distance(Vec3::splat(0.05)) < 1e-6)
+    );
 }
 
 // Contacts
@@ -258,9 +289,20 @@ fn moved(by: [f64; 3]) -> Value {
 
 /// Every local number of a scene, bit for bit.
 fn bits(scene: &Scene) -> String {
-    let words = |points: &[Vec3]| points.iter().map(|p| p.to_array().map(f32::to_bits)).collect::<Vec<_>>();
-    let Scene { domain, particles, .. } = scene;
-    let actions: Vec<_> = scene.schedule.iter().map(|s| format!("{} {:?}", s.time, s.action)).collect();
+    let words = |points: &[Vec3]| {
+        points
+            .iter()
+            .map(|p| p.to_array().map(f32::to_bits))
+            .collect::<Vec<_>>()
+    };
+    let Scene {
+        domain, particles, ..
+    } = scene;
+    let actions: Vec<_> = scene
+        .schedule
+        .iter()
+        .map(|s| format!("{} {:?}", s.time, s.action))
+        .collect();
     format!(
         "{:?} {:?} {:?} {:?} {actions:?} {:?}",
         words(&[domain.min, domain.max]),
@@ -275,7 +317,11 @@ fn bits(scene: &Scene) -> String {
 fn a_scene_a_million_metres_away_is_the_same() {
     let near = valid(&moved([0.0; 3]), &[]);
     let far = valid(&moved([1e6, -1e6, 1e6]), &[]);
-    assert!(far.origin.distance(near.origin + DVec3::new(1e6, -1e6, 1e6)) < 1e-9);
+    assert!(
+        far.origin
+            .distance(near.origin + DVec3::new(1e6, -1e6, 1e6))
+            < 1e-9
+    );
     assert!(near.particles.len() > 1000);
     assert!(bits(&near) == bits(&far));
 }
@@ -289,7 +335,10 @@ fn a_few_overlaps_are_left_out_and_told() {
     given["bodies"][1]["shape"]["max"] = json!([0.4, 0.7, 0.4]);
     let scene = valid(&given, &[]);
     assert_eq!(scene.particles.len(), 64 + 48);
-    assert_eq!(scene.notes, ["bodies[1]: 16 of 64 grains overlap bodies[0] and were left out"]);
+    assert_eq!(
+        scene.notes,
+        ["bodies[1]: 16 of 64 grains overlap bodies[0] and were left out"]
+    );
     // Side by side nothing overlaps.
     given["bodies"][1]["shape"]["min"] = json!([0, 0.4, 0]);
     given["bodies"][1]["shape"]["max"] = json!([0.4, 0.8, 0.4]);
@@ -309,7 +358,10 @@ fn grains_inside_colliders_are_left_out() {
         given["colliders"] = json!([{ "shape": shape }]);
         let scene = valid(&given, &[]);
         assert_eq!(scene.particles.len(), 48, "{shape}");
-        assert_eq!(scene.notes, ["bodies[0]: 16 of 64 grains overlap colliders[0] and were left out"]);
+        assert_eq!(
+            scene.notes,
+            ["bodies[0]: 16 of 64 grains overlap colliders[0] and were left out"]
+        );
         if let ColliderShape::Plane { normal, .. } = scene.colliders[0].shape {
             assert_eq!(normal, Vec3::Y);
         }
@@ -319,7 +371,8 @@ fn grains_inside_colliders_are_left_out() {
 #[test]
 fn an_open_side_lets_grains_reach_through() {
     let mut given = block();
-    given["bodies"][0]["shape"] = json!({ "kind": "box", "min": [0.65, 0, 0], "max": [1.05, 0.4, 0.4] });
+    given["bodies"][0]["shape"] =
+        json!({ "kind": "box", "min": [0.65, 0, 0], "max": [1.05, 0.4, 0.4] });
     assert!(message(&given, &[]).contains("reaches through the domain's side x_max, by 0.05 m"));
     given["domain"]["sides"] = json!({ "x_max": "open" });
     assert_eq!(valid(&given, &[]).particles.len(), 64);
@@ -367,13 +420,27 @@ fn a_drop_is_a_ball_of_grains() {
     let mut given = block();
     given["events"] = json!([{ "at": 1, "drop": { "center": [0, -0.5, 0], "radius": 0.15, "velocity": [0, -2, 0] } }]);
     let scene = valid(&given, &[]);
-    let [Scheduled { time: 1.0, action: Action::Add(ball) }] = &scene.schedule[..] else {
+    let [
+        Scheduled {
+            time: 1.0,
+            action: Action::Add(ball),
+        },
+    ] = &scene.schedule[..]
+    else {
         panic!("{:?}", scene.schedule);
     };
     // Center and six neighbors at 0.1 m.
     assert_eq!(ball.len(), 7);
-    assert!(ball.position.iter().all(|p| p.distance(Vec3::new(0.0, -0.5, 0.0)) < 0.1001));
-    assert!(ball.velocity.iter().all(|v| *v == Vec3::new(0.0, -2.0, 0.0)));
+    assert!(
+        ball.position
+            .iter()
+            .all(|p| p.distance(Vec3::new(0.0, -0.5, 0.0)) < 0.1001)
+    );
+    assert!(
+        ball.velocity
+            .iter()
+            .all(|v| *v == Vec3::new(0.0, -2.0, 0.0))
+    );
     assert_eq!(scene.capacity, 71);
 }
 
@@ -390,7 +457,11 @@ fn an_emitter_lets_in_layers_until_it_is_switched_off() {
         { "at": 1.75, "emitter": { "name": "tap", "on": true } }
     ]);
     let scene = valid(&given, &[]);
-    let times: Vec<f64> = scene.schedule.iter().map(|scheduled| scheduled.time).collect();
+    let times: Vec<f64> = scene
+        .schedule
+        .iter()
+        .map(|scheduled| scheduled.time)
+        .collect();
     assert_eq!(times, [0.5, 0.625, 0.75, 0.875, 1.75, 1.875]);
     assert!(scene.schedule.iter().all(|scheduled| added(scheduled) == 7));
     assert_eq!(scene.capacity, 64 + 42);
@@ -402,6 +473,32 @@ fn an_emitter_lets_in_layers_until_it_is_switched_off() {
         for other in &layer.position[..i] {
             assert!(point.distance(*other) > 0.1249);
         }
+    }
+}
+
+#[test]
+fn an_emitter_in_2d_is_a_line() {
+    let scene = valid(
+        &json!({
+            "dimensions": 2,
+            "domain": { "min": [0, 0], "max": [2, 2] },
+            "gravity": [0, 0],
+            "grains": { "radius": 0.05, "spring": 1000, "restitution": 0.5 },
+            "emitters": [{ "name": "slit", "center": [1, 1], "radius": 0.28, "velocity": [0.3, 0.4] }],
+            "time": { "duration": 1, "fps": 10 }
+        }),
+        &[],
+    );
+    // 2.2 radii apart at 0.5 m/s: every 0.22 s.
+    assert_eq!(scene.schedule.len(), 5);
+    assert_near(scene.schedule[1].time, 0.22);
+    let Action::Add(layer) = &scene.schedule[4].action else {
+        panic!("not a layer");
+    };
+    assert_eq!(layer.len(), 5);
+    for pair in layer.position.windows(2) {
+        assert!((pair[0].distance(pair[1]) - 0.11).abs() < 1e-6);
+        assert!((pair[1] - pair[0]).dot(Vec3::new(0.3, 0.4, 0.0)).abs() < 1e-6);
     }
 }
 
@@ -447,15 +544,27 @@ fn color_ranges_come_from_the_scene() {
     for (column, [low, high]) in expected {
         let color = valid(&block(), &[&format!("render.color.by={column}")]).color;
         assert_eq!(color.column.name, column);
-        assert!((color.range[0] - low).abs() < 1e-9 && (color.range[1] - high).abs() < 1e-9, "{column}");
+        assert!(
+            (color.range[0] - low).abs() < 1e-9 && (color.range[1] - high).abs() < 1e-9,
+            "{column}"
+        );
     }
-    assert_eq!(valid(&block(), &["gravity=[0,0,0]"]).color.range, [0.0, 1.0]);
+    assert_eq!(
+        valid(&block(), &["gravity=[0,0,0]"]).color.range,
+        [0.0, 1.0]
+    );
 }
 
 #[test]
 fn color_maps_have_distinct_names_and_the_papers_ends() {
     for (i, map) in color_maps::COLOR_MAPS.iter().enumerate() {
-        assert!(color_maps::COLOR_MAPS[..i].iter().all(|other| other.name != map.name), "{}", map.name);
+        assert!(
+            color_maps::COLOR_MAPS[..i]
+                .iter()
+                .all(|other| other.name != map.name),
+            "{}",
+            map.name
+        );
         assert_ne!((map.at)(0.0), (map.at)(0.5), "{}", map.name);
     }
     let ends = |name: &str| [0.0, 1.0].map(color_maps::find(name).unwrap().at);
@@ -478,7 +587,13 @@ fn hex_colors() {
 fn set_changes_values_on_any_level() {
     let scene = valid(
         &block(),
-        &["time.fps=60", "bodies[0].velocity=[0,1,0]", "render.splat=disc", "name=my scene", "bodies[0].shape.max[1]=0.2"],
+        &[
+            "time.fps=60",
+            "bodies[0].velocity=[0,1,0]",
+            "render.splat=disc",
+            "name=my scene",
+            "bodies[0].shape.max[1]=0.2",
+        ],
     );
     assert_eq!(scene.time.fps, 60.0);
     assert_eq!(scene.particles.velocity[0], Vec3::Y);

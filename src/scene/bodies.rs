@@ -39,16 +39,32 @@ pub fn fill(
             continue;
         };
         if grains.position.is_empty() {
-            let mend = format!("make its shape larger or grains.radius ({} m) smaller", number(radius));
+            let mend = format!(
+                "make its shape larger or grains.radius ({} m) smaller",
+                number(radius)
+            );
             report.problem(&path, "is empty: not one grain fits", mend);
             continue;
         }
         check_walls(&path, &grains.position, radius, frame, report);
-        remove_inside_colliders(&path, &mut grains, colliders, radius, frame.dimensions, report);
+        remove_inside_colliders(
+            &path,
+            &mut grains,
+            colliders,
+            radius,
+            frame.dimensions,
+            report,
+        );
         remove_overlaps(&path, &mut grains, &placed, report);
-        placed.add(&grains.position, i);
-        particles.position.extend(grains.position.iter().map(|p| p.as_vec3()));
-        particles.velocity.extend(grains.velocity.iter().map(|v| v.as_vec3()));
+        if i + 1 < file.bodies.len() {
+            placed.add(&grains.position, i);
+        }
+        particles
+            .position
+            .extend(grains.position.iter().map(|p| p.as_vec3()));
+        particles
+            .velocity
+            .extend(grains.velocity.iter().map(|v| v.as_vec3()));
     }
     particles
 }
@@ -78,20 +94,37 @@ fn grains(
     report: &mut Report,
 ) -> Option<Grains> {
     let path = format!("bodies[{index}]");
-    let velocity = report.optional(&format!("{path}.velocity"), body.velocity.as_ref(), frame.dimensions);
+    let velocity = report.optional(
+        &format!("{path}.velocity"),
+        body.velocity.as_ref(),
+        frame.dimensions,
+    );
     let shape = format!("{path}.shape");
-    let region = match &body.shape {
-        Shape::Particles { file, placement } => {
-            return from_file(&shape, file, placement, velocity, body, frame, folder, report);
-        }
-        filled => region(&shape, filled, frame, folder, report)?,
-    };
     let radius = file.grains.radius;
+    if let Shape::Particles { file, placement } = &body.shape {
+        if body.spacing.is_some()
+            || body.jitter != 0.0
+            || body.arrangement != Arrangement::default()
+        {
+            report.problem(
+                &path,
+                "a particle file says itself where grains are",
+                "remove `arrangement`, `spacing` and `jitter`",
+            );
+        }
+        let mut grains = from_file(&shape, file, placement, velocity, frame, folder, report)?;
+        remove_coincident(&path, &mut grains, radius, report);
+        return Some(grains);
+    }
+    let region = region(&shape, &body.shape, frame, folder, report)?;
     let spacing = body.spacing.unwrap_or(2.0 * radius);
     if spacing < 2.0 * radius * (1.0 - 1e-9) {
         report.problem(
             format!("{path}.spacing"),
-            format!("{} m is less than a grain's diameter: grains would overlap", number(spacing)),
+            format!(
+                "{} m is less than a grain's diameter: grains would overlap",
+                number(spacing)
+            ),
             format!("give at least {} m, or leave it out", number(2.0 * radius)),
         );
         return None;
@@ -109,17 +142,34 @@ fn grains(
     let mut random = ChaCha8Rng::seed_from_u64(file.seed);
     random.set_stream(index as u64);
     let position = match body.arrangement {
-        Arrangement::Lattice => {
-            shapes::lattice(&region, frame.dimensions, radius, spacing, body.jitter, &mut random)
-        }
-        Arrangement::Random => shapes::random(&region, frame.dimensions, radius, body.fraction, &mut random),
+        Arrangement::Lattice => shapes::lattice(
+            &region,
+            frame.dimensions,
+            radius,
+            spacing,
+            body.jitter,
+            &mut random,
+        ),
+        Arrangement::Random => shapes::random(
+            &region,
+            frame.dimensions,
+            radius,
+            body.fraction,
+            &mut random,
+        ),
     };
     let velocity = vec![velocity; position.len()];
     Some(Grains { position, velocity })
 }
 
 /// Local coordinates.
-fn region(path: &str, shape: &Shape, frame: &Frame, folder: &Path, report: &mut Report) -> Option<Region> {
+fn region(
+    path: &str,
+    shape: &Shape,
+    frame: &Frame,
+    folder: &Path,
+    report: &mut Report,
+) -> Option<Region> {
     let mut point = |key: &str, given: &model::Coordinates| {
         let point = report.vector(&format!("{path}.{key}"), given, frame.dimensions);
         frame.local(point)
@@ -135,12 +185,20 @@ fn region(path: &str, shape: &Shape, frame: &Frame, folder: &Path, report: &mut 
         }),
         Shape::Cylinder { from, to, radius } => {
             if frame.dimensions == Dimensions::Two {
-                report.problem(path, "a cylinder in a 2D scene", "use a box or sphere, or set `dimensions` to 3");
+                report.problem(
+                    path,
+                    "a cylinder in a 2D scene",
+                    "use a box or sphere, or set `dimensions` to 3",
+                );
                 return None;
             }
             let (from, to) = (point("from", from), point("to", to));
             if from == to {
-                report.problem(path, "`from` and `to` are one point", "move them apart, along the cylinder's axis");
+                report.problem(
+                    path,
+                    "`from` and `to` are one point",
+                    "move them apart, along the cylinder's axis",
+                );
                 return None;
             }
             let radius = *radius;
@@ -164,27 +222,21 @@ fn lattice_points(region: &Region, dimensions: Dimensions, spacing: f64) -> f64 
             high - low
         }
     };
-    (0..dimensions.count()).map(|axis| (size[axis] / spacing).max(1.0)).product()
+    (0..dimensions.count())
+        .map(|axis| (size[axis] / spacing).max(1.0))
+        .product()
 }
 
-#[allow(clippy::too_many_arguments, reason = "the context of one call, not a bundle with a life of its own")]
+/// The particles of a file, by id.
 fn from_file(
     path: &str,
     file: &str,
     placement: &model::Placement,
     velocity: DVec3,
-    body: &Body,
     frame: &Frame,
     folder: &Path,
     report: &mut Report,
 ) -> Option<Grains> {
-    if body.spacing.is_some() || body.jitter != 0.0 || body.arrangement != Arrangement::default() {
-        report.problem(
-            path,
-            "a particle file says itself where grains are",
-            "remove `arrangement`, `spacing` and `jitter`",
-        );
-    }
     let loaded = match particle_file::load(&folder.join(file), frame.dimensions) {
         Ok(loaded) => loaded,
         Err(reason) => {
@@ -201,7 +253,9 @@ fn from_file(
         cloud.placed(scale, rotate, translate).vertices
     };
     let position = turned(loaded.position, placement.scale, translate);
-    let own = loaded.velocity.unwrap_or_else(|| vec![DVec3::ZERO; position.len()]);
+    let own = loaded
+        .velocity
+        .unwrap_or_else(|| vec![DVec3::ZERO; position.len()]);
     let own = turned(own, 1.0, DVec3::ZERO);
     let mut order: Vec<usize> = (0..position.len()).collect();
     if let Some(ids) = &loaded.id {
@@ -213,11 +267,31 @@ fn from_file(
     })
 }
 
+/// Removes grains whose center an earlier grain of the same file covers: they would fly apart.
+fn remove_coincident(path: &str, grains: &mut Grains, radius: f64, report: &mut Report) {
+    let mut kept = vec![false; grains.position.len()];
+    for i in shapes::without_overlaps(&grains.position, radius) {
+        kept[i] = true;
+    }
+    let removed = kept.iter().filter(|kept| !**kept).count();
+    if removed > 0 {
+        let all = kept.len();
+        let what = "have their centers inside an earlier one and were left out";
+        report
+            .notes
+            .push(format!("{path}: {removed} of {all} particles {what}"));
+    }
+    grains.keep(&kept);
+}
+
 /// Grains that reach out of the domain: through a closed side at all, through an open one with their centers.
 fn check_walls(path: &str, grains: &[DVec3], radius: f64, frame: &Frame, report: &mut Report) {
     for (axis, name) in frame.axes() {
         let lowest = grains.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
-        let highest = grains.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
+        let highest = grains
+            .iter()
+            .map(|p| p[axis])
+            .fold(f64::NEG_INFINITY, f64::max);
         let [low, high] = frame.sides[axis];
         let sides = [
             ("min", low, frame.min[axis] - lowest),
@@ -226,7 +300,9 @@ fn check_walls(path: &str, grains: &[DVec3], radius: f64, frame: &Frame, report:
         for (end, wall, center_beyond) in sides {
             let (beyond, says) = match wall {
                 Wall::Open => (center_beyond, "grains lie outside the domain's open side"),
-                Wall::Contact | Wall::Clamp => (center_beyond + radius, "reaches through the domain's side"),
+                Wall::Contact | Wall::Clamp => {
+                    (center_beyond + radius, "reaches through the domain's side")
+                }
             };
             if beyond > radius * TOLERANCE {
                 report.problem(
@@ -249,14 +325,16 @@ fn remove_inside_colliders(
     report: &mut Report,
 ) {
     for (i, collider) in colliders.iter().enumerate() {
-        let offset = collider.path.first().map_or(DVec3::ZERO, |(_, offset)| offset.as_dvec3());
+        let offset = collider
+            .path
+            .first()
+            .map_or(DVec3::ZERO, |(_, offset)| offset.as_dvec3());
         let bounds = collider.shape.bounds();
         let reach = radius * (1.0 - TOLERANCE);
         let is_free = |position: &DVec3| {
             let point = *position - offset;
-            let far = bounds.is_some_and(|(low, high)| {
-                (low - point).max(point - high).max_element() >= reach
-            });
+            let far = bounds
+                .is_some_and(|(low, high)| (low - point).max(point - high).max_element() >= reach);
             far || collider.shape.distance(point, dimensions) >= reach
         };
         let kept: Vec<bool> = grains.position.iter().map(is_free).collect();
@@ -273,7 +351,13 @@ fn remove_overlaps(path: &str, grains: &mut Grains, placed: &Placed, report: &mu
     bodies.sort_unstable();
     let all = grains.position.len();
     for same in bodies.chunk_by(|a, b| a == b) {
-        lost(path, same.len(), all, &format!("bodies[{}]", same[0]), report);
+        lost(
+            path,
+            same.len(),
+            all,
+            &format!("bodies[{}]", same[0]),
+            report,
+        );
     }
     let kept: Vec<bool> = hits.iter().map(Option::is_none).collect();
     grains.keep(&kept);
@@ -288,7 +372,9 @@ fn lost(path: &str, removed: usize, all: usize, other: &str, report: &mut Report
             "move one of them, or remove one",
         );
     } else if removed > 0 {
-        report.notes.push(format!("{path}: {removed} of {all} grains overlap {other} and were left out"));
+        report.notes.push(format!(
+            "{path}: {removed} of {all} grains overlap {other} and were left out"
+        ));
     }
 }
 

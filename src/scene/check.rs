@@ -4,7 +4,7 @@
 
 use serde_json::{Map, Value};
 
-use super::text::{list, number, suggest};
+use super::text::{list, nearest, number};
 use crate::error::Problem;
 
 /// Every way in which `value` does not follow `schema`.
@@ -36,7 +36,10 @@ impl<'a> Walk<'a> {
         }
         let options = alternatives(schema, "anyOf");
         if !options.is_empty() {
-            if let (false, Some(real)) = (value.is_null(), options.iter().find(|o| o["type"] != "null")) {
+            if let (false, Some(real)) = (
+                value.is_null(),
+                options.iter().find(|o| o["type"] != "null"),
+            ) {
                 self.visit(path, value, real, about);
             }
             return;
@@ -79,9 +82,16 @@ impl<'a> Walk<'a> {
             _ => true,
         });
         if !fits {
-            let wanted = types.iter().find(|name| **name != "null").map_or("null", |name| spoken(name));
+            let wanted = types
+                .iter()
+                .find(|name| **name != "null")
+                .map_or("null", |name| spoken(name));
             let what = format!("expected {wanted}, found {}", found(value));
-            self.problems.push(Problem::new(path, what, with_about(&format!("give {wanted}"), about)));
+            self.problems.push(Problem::new(
+                path,
+                what,
+                with_about(&format!("give {wanted}"), about),
+            ));
         }
         fits
     }
@@ -91,29 +101,43 @@ impl<'a> Walk<'a> {
             return;
         };
         let known = properties.keys().map(String::as_str);
+        let mut meant = Vec::new();
         for (key, value) in object {
             let place = join(path, key);
             match properties.get(key) {
                 Some(property) => self.visit(&place, value, property, None),
                 None if schema["additionalProperties"] == false => {
-                    let mend = match suggest(key, known.clone()) {
-                        near if near.starts_with("did") => near,
-                        _ => format!("keys here: {}", list(known.clone())),
+                    let near = nearest(key, known.clone());
+                    let mend = match near {
+                        Some(near) => format!("did you mean `{near}`?"),
+                        None => format!("keys here: {}", list(known.clone())),
                     };
+                    meant.extend(near);
                     self.problems.push(Problem::new(place, "unknown key", mend));
                 }
                 None => {}
             }
         }
-        for key in alternatives(schema, "required").iter().filter_map(Value::as_str) {
-            if !object.contains_key(key) {
+        for key in alternatives(schema, "required")
+            .iter()
+            .filter_map(Value::as_str)
+        {
+            // A misspelled key has been reported as such.
+            if !object.contains_key(key) && !meant.contains(&key) {
                 let mend = with_about("add it", self.about(&properties[key]));
-                self.problems.push(Problem::new(join(path, key), "missing", mend));
+                self.problems
+                    .push(Problem::new(join(path, key), "missing", mend));
             }
         }
     }
 
-    fn visit_array(&mut self, path: &str, array: &[Value], schema: &'a Value, about: Option<&'a str>) {
+    fn visit_array(
+        &mut self,
+        path: &str,
+        array: &[Value],
+        schema: &'a Value,
+        about: Option<&'a str>,
+    ) {
         let least = schema["minItems"].as_u64().unwrap_or(0);
         let most = schema["maxItems"].as_u64().unwrap_or(u64::MAX);
         let count = array.len() as u64;
@@ -124,7 +148,11 @@ impl<'a> Walk<'a> {
                 (a, b) => format!("{a} to {b}"),
             };
             let mend = with_about(&format!("give {wanted} entries"), about);
-            self.problems.push(Problem::new(path, format!("a list of {count}, expected {wanted} entries"), mend));
+            self.problems.push(Problem::new(
+                path,
+                format!("a list of {count}, expected {wanted} entries"),
+                mend,
+            ));
         }
         let fixed = alternatives(schema, "prefixItems");
         for (i, element) in array.iter().enumerate() {
@@ -157,19 +185,21 @@ impl<'a> Walk<'a> {
             .filter_map(|(says, name)| Some(format!("{says} {}", number(bound(name)?))))
             .collect();
         let mend = with_about(&format!("give {}", range.join(" and ")), about);
-        self.problems.push(Problem::new(path, format!("{value} is out of range"), mend));
+        self.problems
+            .push(Problem::new(path, format!("{value} is out of range"), mend));
     }
 
     fn visit_word(&mut self, path: &str, value: &Value, words: &[&str]) {
         match value.as_str() {
             Some(word) if words.contains(&word) => {}
             Some(word) => {
-                let near = suggest(word, words.iter().copied());
-                let mend = match near.starts_with("did") {
-                    true => format!("{near} one of {}", list(words.iter().copied())),
-                    false => format!("one of {}", list(words.iter().copied())),
+                let all = list(words.iter().copied());
+                let mend = match nearest(word, words.iter().copied()) {
+                    Some(near) => format!("did you mean `{near}`? one of {all}"),
+                    None => format!("one of {all}"),
                 };
-                self.problems.push(Problem::new(path, format!("unknown word \"{word}\""), mend));
+                self.problems
+                    .push(Problem::new(path, format!("unknown word \"{word}\""), mend));
             }
             None => {
                 let what = format!("expected a word, found {}", found(value));
@@ -194,7 +224,10 @@ impl<'a> Walk<'a> {
             self.problems.push(Problem::new(place, "missing", mend));
             return;
         };
-        match variants.iter().find(|variant| tag(variant) == kind.as_str()) {
+        match variants
+            .iter()
+            .find(|variant| tag(variant) == kind.as_str())
+        {
             Some(variant) if kind.is_string() => self.visit_object(path, object, variant),
             _ => self.visit_word(&place, kind, &kinds),
         }
@@ -202,7 +235,9 @@ impl<'a> Walk<'a> {
 
     /// A property's description, or that of the type it refers to.
     fn about(&self, property: &'a Value) -> Option<&'a str> {
-        let name = property["$ref"].as_str().and_then(|reference| reference.rsplit('/').next());
+        let name = property["$ref"]
+            .as_str()
+            .and_then(|reference| reference.rsplit('/').next());
         let own = property["description"].as_str();
         own.or(name.and_then(|name| self.definitions[name]["description"].as_str()))
     }
@@ -220,7 +255,9 @@ fn tag(variant: &Value) -> Option<&str> {
 /// The words of an enum, however the schema spells it.
 fn words(schema: &Value) -> Vec<&str> {
     let own = schema["const"].as_str().into_iter();
-    let listed = alternatives(schema, "enum").iter().filter_map(Value::as_str);
+    let listed = alternatives(schema, "enum")
+        .iter()
+        .filter_map(Value::as_str);
     let nested = alternatives(schema, "oneOf").iter().flat_map(words);
     own.chain(listed).chain(nested).collect()
 }

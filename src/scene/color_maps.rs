@@ -22,17 +22,49 @@ macro_rules! from_colorous {
 
 /// Every color map there is.
 pub const COLOR_MAPS: &[ColorMap] = &[
-    from_colorous!("viridis", VIRIDIS, "dark blue, green, yellow; even in lightness (matplotlib)"),
-    from_colorous!("plasma", PLASMA, "blue, pink, yellow; even in lightness (matplotlib)"),
-    from_colorous!("inferno", INFERNO, "black, red, pale yellow; even in lightness (matplotlib)"),
-    from_colorous!("magma", MAGMA, "black, purple, pale pink; even in lightness (matplotlib)"),
-    from_colorous!("cividis", CIVIDIS, "blue to yellow; the same to color-blind eyes (Nuñez 2018)"),
-    from_colorous!("turbo", TURBO, "blue, green, red; rich in detail (Mikhailov 2019)"),
+    from_colorous!(
+        "viridis",
+        VIRIDIS,
+        "dark blue, green, yellow; even in lightness (matplotlib)"
+    ),
+    from_colorous!(
+        "plasma",
+        PLASMA,
+        "blue, pink, yellow; even in lightness (matplotlib)"
+    ),
+    from_colorous!(
+        "inferno",
+        INFERNO,
+        "black, red, pale yellow; even in lightness (matplotlib)"
+    ),
+    from_colorous!(
+        "magma",
+        MAGMA,
+        "black, purple, pale pink; even in lightness (matplotlib)"
+    ),
+    from_colorous!(
+        "cividis",
+        CIVIDIS,
+        "blue to yellow; the same to color-blind eyes (Nuñez 2018)"
+    ),
+    from_colorous!(
+        "turbo",
+        TURBO,
+        "blue, green, red; rich in detail (Mikhailov 2019)"
+    ),
     from_colorous!("blues", BLUES, "white to dark blue (ColorBrewer)"),
     from_colorous!("cool", COOL, "violet to green (Niccoli)"),
     from_colorous!("warm", WARM, "violet to yellow-green through red (Niccoli)"),
-    from_colorous!("cubehelix", CUBEHELIX, "black to white in a spiral of hues (Green 2011)"),
-    from_colorous!("rainbow", RAINBOW, "all hues, cyclic; softer than a HSV rainbow"),
+    from_colorous!(
+        "cubehelix",
+        CUBEHELIX,
+        "black to white in a spiral of hues (Green 2011)"
+    ),
+    from_colorous!(
+        "rainbow",
+        RAINBOW,
+        "all hues, cyclic; softer than a HSV rainbow"
+    ),
     from_colorous!("sinebow", SINEBOW, "all hues, cyclic; sine waves"),
     ColorMap {
         name: "white_blue",
@@ -67,5 +99,9 @@ fn sample(gradient: Gradient, share: f64) -> [u8; 3] {
 
 fn blend(low: [u8; 3], high: [u8; 3], share: f64) -> [u8; 3] {
     let mix = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * share).round() as u8;
-    [mix(low[0], high[0]), mix(low[1], high[1]), mix(low[2], high[2])]
+    [
+        mix(low[0], high[0]),
+        mix(low[1], high[1]),
+        mix(low[2], high[2]),
+    ]
 }

@@ -25,41 +25,65 @@ pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
             suggest(&color.map, names),
         );
     }
+    if let Some(range) = color.range {
+        check_range(range, report);
+    }
     let flat = known.frame.dimensions == Dimensions::Two;
     let names = column::COLUMNS.iter().map(|column| column.name);
     let names = names.filter(|name| !flat || !["z", "velocity_z"].contains(name));
-    let Some(column) = column::find(&color.by).filter(|column| names.clone().any(|name| name == column.name)) else {
+    let Some(column) =
+        column::find(&color.by).filter(|column| names.clone().any(|name| name == column.name))
+    else {
         let (what, mend) = match column::find(&color.by) {
             Some(_) => (
                 format!("a 2D scene has no \"{}\"", color.by),
                 format!("one of {}", list(names)),
             ),
-            None => (format!("no column is called \"{}\"", color.by), suggest(&color.by, names)),
+            None => (
+                format!("no column is called \"{}\"", color.by),
+                suggest(&color.by, names),
+            ),
         };
         report.problem("render.color.by", what, mend);
         return None;
     };
-    let range = color.range.unwrap_or_else(|| default_range(column.name, known));
-    if range[0] >= range[1] || range.iter().any(|end| end.abs() > f64::from(f32::MAX)) {
-        report.problem(
-            "render.color.range",
-            format!("{} is not below {}", number(range[0]), number(range[1])),
-            "give the lower value first, both below 3.4e38, or leave the range out",
-        );
-    }
     Some(Coloring {
         column,
         map: color.map.clone(),
-        range,
+        range: color
+            .range
+            .unwrap_or_else(|| default_range(column.name, known)),
         legend: color.legend,
     })
+}
+
+/// Colors are computed in f32, so both ends and their difference must fit it.
+fn check_range([low, high]: [f64; 2], report: &mut Report) {
+    const LARGEST: f64 = 1e38;
+    let path = "render.color.range";
+    if low >= high {
+        let what = format!("{} is not below {}", number(low), number(high));
+        report.problem(
+            path,
+            what,
+            "give the lower value first, or leave the range out",
+        );
+    } else if low.abs().max(high.abs()) > LARGEST {
+        let mend = format!("stay between -{0} and {0}", number(LARGEST));
+        report.problem(path, "too large", mend);
+    }
 }
 
 /// A range that the scene's physics makes likely and that stays the same in every frame.
 fn default_range(column: &str, known: &Known) -> [f64; 2] {
     let Known { file, frame, .. } = known;
     let height = frame.max.y - frame.min.y;
-    let extent = |axis: usize| [frame.origin[axis] + frame.min[axis], frame.origin[axis] + frame.max[axis]];
+    let extent = |axis: usize| {
+        [
+            frame.origin[axis] + frame.min[axis],
+            frame.origin[axis] + frame.max[axis],
+        ]
+    };
     let dimensions = frame.dimensions.count();
     match column {
         "speed" => [0.0, typical_speed(known, height)],
@@ -84,7 +108,12 @@ fn default_range(column: &str, known: &Known) -> [f64; 2] {
                 Axis::Z => 2,
             };
             let voxel = 2.0 * file.grains.radius;
-            [0.0, ((frame.max - frame.min)[axis] / voxel - 1e-6).ceil().max(1.0)]
+            [
+                0.0,
+                ((frame.max - frame.min)[axis] / voxel - 1e-6)
+                    .ceil()
+                    .max(1.0),
+            ]
         }
         _ => [0.0, 1.0],
     }
@@ -93,7 +122,12 @@ fn default_range(column: &str, known: &Known) -> [f64; 2] {
 /// That of a fall from top to bottom, √(2 g H); without gravity the fastest grain's at the start.
 fn typical_speed(known: &Known, height: f64) -> f64 {
     let fall = (2.0 * known.gravity * height).sqrt();
-    let fastest = known.particles.velocity.iter().map(|v| v.length()).fold(0.0, f32::max);
+    let fastest = known
+        .particles
+        .velocity
+        .iter()
+        .map(|v| v.length())
+        .fold(0.0, f32::max);
     match (fall, f64::from(fastest)) {
         (fall, _) if fall > 0.0 => fall,
         (_, fastest) if fastest > 0.0 => fastest,

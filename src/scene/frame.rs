@@ -18,7 +18,12 @@ pub struct Report {
 }
 
 impl Report {
-    pub fn problem(&mut self, path: impl Into<String>, what: impl Into<String>, mend: impl Into<String>) {
+    pub fn problem(
+        &mut self,
+        path: impl Into<String>,
+        what: impl Into<String>,
+        mend: impl Into<String>,
+    ) {
         self.problems.push(Problem::new(path, what, mend));
     }
 
@@ -39,18 +44,26 @@ impl Report {
             ),
             _ => {}
         }
-        if let Some(far) = numbers.iter().find(|x| !(x.abs() <= LARGEST_COORDINATE)) {
+        if let Some(far) = numbers.iter().find(|x| x.abs() > LARGEST_COORDINATE) {
             self.problem(
                 path,
                 format!("{} is too large", number(*far)),
-                format!("give numbers between -{0} and {0}", number(LARGEST_COORDINATE)),
+                format!(
+                    "give numbers between -{0} and {0}",
+                    number(LARGEST_COORDINATE)
+                ),
             );
         }
         DVec3::new(numbers[0], numbers[1], z)
     }
 
     /// A vector that may be left out: zero then.
-    pub fn optional(&mut self, path: &str, given: Option<&Coordinates>, dimensions: Dimensions) -> DVec3 {
+    pub fn optional(
+        &mut self,
+        path: &str,
+        given: Option<&Coordinates>,
+        dimensions: Dimensions,
+    ) -> DVec3 {
         given.map_or(DVec3::ZERO, |given| self.vector(path, given, dimensions))
     }
 }
@@ -82,14 +95,24 @@ impl Frame {
             if width <= 0.0 {
                 report.problem(
                     "domain",
-                    format!("min {} is not below max {} along {name}", number(low[axis]), number(high[axis])),
+                    format!(
+                        "min {} is not below max {} along {name}",
+                        number(low[axis]),
+                        number(high[axis])
+                    ),
                     "swap them, or move one",
                 );
             } else if width < 2.0 * diameter * (1.0 - 1e-9) {
                 report.problem(
                     "domain",
-                    format!("{} m wide along {name}, less than two grain diameters", number(width)),
-                    format!("make it at least {} m wide, or grains.radius smaller", number(2.0 * diameter)),
+                    format!(
+                        "{} m wide along {name}, less than two grain diameters",
+                        number(width)
+                    ),
+                    format!(
+                        "make it at least {} m wide, or grains.radius smaller",
+                        number(2.0 * diameter)
+                    ),
                 );
             }
         }
@@ -132,7 +155,11 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 fn sides(file: &SceneFile, dimensions: Dimensions, report: &mut Report) -> [[Wall; 2]; 3] {
     let named = &file.domain.sides;
     if dimensions == Dimensions::Two && (named.z_min.is_some() || named.z_max.is_some()) {
-        report.problem("domain.sides", "a 2D scene has no z sides", "remove `z_min` and `z_max`");
+        report.problem(
+            "domain.sides",
+            "a 2D scene has no z sides",
+            "remove `z_min` and `z_max`",
+        );
     }
     let or_all = |side: Option<Wall>| side.unwrap_or(file.domain.walls);
     [

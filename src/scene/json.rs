@@ -86,7 +86,10 @@ fn explain(text: &str, error: &serde_json::Error) -> Problem {
             "JSON has no Infinity; give a finite number, at most 1e308",
         )
     } else if word.starts_with("//") || word.starts_with("/*") || word.starts_with('#') {
-        ("a comment".into(), "JSON has no comments; remove it, or use `description`")
+        (
+            "a comment".into(),
+            "JSON has no comments; remove it, or use `description`",
+        )
     } else {
         (what.to_string(), mend_for(what))
     };
@@ -96,19 +99,28 @@ fn explain(text: &str, error: &serde_json::Error) -> Problem {
 fn mend_for(what: &str) -> &'static str {
     const MENDS: &[(&str, &str)] = &[
         ("twice", "keep one of them"),
-        ("trailing comma", "remove the comma before the closing bracket"),
-        ("expected `,` or", "put a comma between entries, or close the bracket"),
+        (
+            "trailing comma",
+            "remove the comma before the closing bracket",
+        ),
+        (
+            "expected `,` or",
+            "put a comma between entries, or close the bracket",
+        ),
         ("expected `:`", "put a colon between key and value"),
         ("key must be a string", "put the key in double quotes"),
         ("EOF", "close every `{`, `[` and `\"` that is open"),
-        ("trailing characters", "remove what follows the scene's last `}`"),
+        (
+            "trailing characters",
+            "remove what follows the scene's last `}`",
+        ),
         ("invalid number", "write numbers as 1, -0.5 or 2.5e-3"),
         ("control character", "write a line break inside text as \\n"),
     ];
-    MENDS
-        .iter()
-        .find(|(part, _)| what.contains(part))
-        .map_or("give a number, \"text\", true, false, [list] or {object}", |(_, mend)| mend)
+    MENDS.iter().find(|(part, _)| what.contains(part)).map_or(
+        "give a number, \"text\", true, false, [list] or {object}",
+        |(_, mend)| mend,
+    )
 }
 
 /// The word around a place (both counted from 1), for the message.
@@ -121,7 +133,10 @@ fn word_at(text: &str, line: usize, column: usize) -> &str {
     }
     // The parser may point one past the word.
     if line[at..].starts_with(is_end) || at == line.len() {
-        at = line[..at].char_indices().next_back().map_or(0, |(before, _)| before);
+        at = line[..at]
+            .char_indices()
+            .next_back()
+            .map_or(0, |(before, _)| before);
     }
     let start = line[..at]
         .char_indices()

@@ -26,8 +26,12 @@ pub struct Entry {
 
 /// Names of all scenes that ship, sorted.
 pub fn names() -> Vec<&'static str> {
-    let stems = SCENES.files().filter(|file| file.path().extension().is_some_and(|e| e == "json"));
-    let mut names: Vec<_> = stems.filter_map(|file| file.path().file_stem()?.to_str()).collect();
+    let stems = SCENES
+        .files()
+        .filter(|file| file.path().extension().is_some_and(|e| e == "json"));
+    let mut names: Vec<_> = stems
+        .filter_map(|file| file.path().file_stem()?.to_str())
+        .collect();
     names.sort_unstable();
     names
 }
@@ -56,7 +60,10 @@ pub fn entries() -> Result<Vec<Entry>> {
 
 /// The error for a name that is neither a file nor a scene that ships.
 pub fn unknown(name: &str) -> Error {
-    let mend = format!("{} (or give the path of a scene file)", text::suggest(name, names()));
+    let mend = format!(
+        "{} (or give the path of a scene file)",
+        text::suggest(name, names())
+    );
     Error::usage(format!("there is no scene or file \"{name}\""), mend)
 }
 
@@ -72,7 +79,12 @@ pub fn folder() -> Result<PathBuf> {
         hash.update(file.path().as_os_str().as_encoded_bytes());
         hash.update(file.contents());
     }
-    let tag: String = hash.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect();
+    let tag: String = hash
+        .finalize()
+        .iter()
+        .take(8)
+        .map(|byte| format!("{byte:02x}"))
+        .collect();
     let root = std::env::temp_dir().join(format!("sliceflow-assets-{tag}"));
     let (scenes, meshes) = (root.join("scenes"), root.join("meshes"));
     let unpack = || {
@@ -91,7 +103,12 @@ pub fn folder() -> Result<PathBuf> {
         Ok(())
     };
     unpack().map_err(|reason: std::io::Error| {
-        Error::file(&root, "unpack meshes into", reason, "free space there, or set TMPDIR to a folder you may write")
+        Error::file(
+            &root,
+            "unpack meshes into",
+            reason,
+            "free space there, or set TMPDIR to a folder you may write",
+        )
     })?;
     Ok(UNPACKED.get_or_init(|| scenes).clone())
 }

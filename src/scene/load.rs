@@ -13,14 +13,24 @@ use crate::error::{Error, Problem, Result};
 pub fn load(path: &Path, overrides: &[String]) -> Result<Scene> {
     if path.is_file() {
         let text = std::fs::read_to_string(path).map_err(|reason| {
-            Error::file(path, "read", reason, "check that it is UTF-8 text and that you may read it")
+            Error::file(
+                path,
+                "read",
+                reason,
+                "check that it is UTF-8 text and that you may read it",
+            )
         })?;
         let folder = path.parent().unwrap_or(Path::new(""));
         return parse(&text, &path.display().to_string(), folder, overrides);
     }
     let name = path.to_string_lossy();
     match library::find(&name) {
-        Some(text) => parse(text, &format!("{name}.json"), &library::folder()?, overrides),
+        Some(text) => parse(
+            text,
+            &format!("{name}.json"),
+            &library::folder()?,
+            overrides,
+        ),
         None => Err(library::unknown(&name)),
     }
 }
@@ -33,11 +43,19 @@ pub fn parse(text: &str, file_name: &str, folder: &Path, overrides: &[String]) -
     })
 }
 
-fn scene(text: &str, file_name: &str, folder: &Path, overrides: &[String]) -> std::result::Result<Scene, Vec<Problem>> {
+fn scene(
+    text: &str,
+    file_name: &str,
+    folder: &Path,
+    overrides: &[String],
+) -> std::result::Result<Scene, Vec<Problem>> {
     // Editors on Windows put a byte order mark before the text.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut value = json_text::parse(text).map_err(|problem| vec![problem])?;
-    let failed: Vec<_> = overrides.iter().filter_map(|one| set::apply(&mut value, one).err()).collect();
+    let failed: Vec<_> = overrides
+        .iter()
+        .filter_map(|one| set::apply(&mut value, one).err())
+        .collect();
     if !failed.is_empty() {
         return Err(failed);
     }
@@ -46,7 +64,11 @@ fn scene(text: &str, file_name: &str, folder: &Path, overrides: &[String]) -> st
         return Err(problems);
     }
     let mut file: SceneFile = serde_json::from_value(value).map_err(|reason| {
-        vec![Problem::new("", reason.to_string(), "compare the scene with `sliceflow schema`")]
+        vec![Problem::new(
+            "",
+            reason.to_string(),
+            "compare the scene with `sliceflow schema`",
+        )]
     })?;
     if file.name.is_empty() {
         let stem = Path::new(file_name).file_stem().unwrap_or_default();

@@ -4,8 +4,8 @@
 
 mod bodies;
 pub mod check;
-mod coloring;
 pub mod color_maps;
+mod coloring;
 pub mod column;
 mod contact;
 mod frame;
@@ -21,7 +21,7 @@ pub mod set;
 pub mod shapes;
 mod text;
 mod time;
-pub mod validate;
+mod validate;
 
 use glam::{DVec3, Vec3};
 use model::{Addressing, Axis, Dashpot, Integrator, Render, SceneFile, Storage, Wall};
@@ -147,9 +147,18 @@ pub struct Collider {
 #[derive(Debug, Clone)]
 pub enum ColliderShape {
     /// Solid where `dot(normal, x - point) < 0`; the normal has length one.
-    Plane { point: Vec3, normal: Vec3 },
-    Box { min: Vec3, max: Vec3 },
-    Sphere { center: Vec3, radius: f32 },
+    Plane {
+        point: Vec3,
+        normal: Vec3,
+    },
+    Box {
+        min: Vec3,
+        max: Vec3,
+    },
+    Sphere {
+        center: Vec3,
+        radius: f32,
+    },
     Mesh(mesh::Mesh),
 }
 

@@ -11,11 +11,18 @@ use super::text::number;
 use super::{Collider, ColliderShape, Dimensions, color_maps, model};
 
 /// All colliders, with their motion along their own paths; `schedule` adds what events move.
-pub fn colliders(file: &model::SceneFile, frame: &Frame, folder: &Path, report: &mut Report) -> Vec<Collider> {
+pub fn colliders(
+    file: &model::SceneFile,
+    frame: &Frame,
+    folder: &Path,
+    report: &mut Report,
+) -> Vec<Collider> {
     let mut colliders = Vec::new();
     for (i, given) in file.colliders.iter().enumerate() {
         let path = format!("colliders[{i}]");
-        let twin = file.colliders[..i].iter().position(|other| other.name == given.name);
+        let twin = file.colliders[..i]
+            .iter()
+            .position(|other| other.name == given.name);
         if let (Some(twin), false) = (twin, given.name.is_empty()) {
             report.problem(
                 format!("{path}.name"),
@@ -23,7 +30,13 @@ pub fn colliders(file: &model::SceneFile, frame: &Frame, folder: &Path, report: 
                 "give each collider its own",
             );
         }
-        let Some(shape) = shape(&format!("{path}.shape"), &given.shape, frame, folder, report) else {
+        let Some(shape) = shape(
+            &format!("{path}.shape"),
+            &given.shape,
+            frame,
+            folder,
+            report,
+        ) else {
             continue;
         };
         let color = color_maps::parse_hex(&given.color).unwrap_or_else(|| {
@@ -45,18 +58,31 @@ pub fn colliders(file: &model::SceneFile, frame: &Frame, folder: &Path, report: 
     colliders
 }
 
-fn motion(path: &str, points: &[model::PathPoint], frame: &Frame, report: &mut Report) -> Vec<(f64, glam::Vec3)> {
+fn motion(
+    path: &str,
+    points: &[model::PathPoint],
+    frame: &Frame,
+    report: &mut Report,
+) -> Vec<(f64, glam::Vec3)> {
     for (i, pair) in points.windows(2).enumerate() {
         if pair[1].at <= pair[0].at {
             report.problem(
                 format!("{path}[{}].at", i + 1),
-                format!("{} s is not after the point before, at {} s", number(pair[1].at), number(pair[0].at)),
+                format!(
+                    "{} s is not after the point before, at {} s",
+                    number(pair[1].at),
+                    number(pair[0].at)
+                ),
                 "put the points in order of time",
             );
         }
     }
     let point = |(i, point): (usize, &model::PathPoint)| {
-        let offset = report.vector(&format!("{path}[{i}].offset"), &point.offset, frame.dimensions);
+        let offset = report.vector(
+            &format!("{path}[{i}].offset"),
+            &point.offset,
+            frame.dimensions,
+        );
         (point.at, offset.as_vec3())
     };
     points.iter().enumerate().map(point).collect()
@@ -78,7 +104,11 @@ fn shape(
             let at = point("point", at);
             let normal = report.vector(&format!("{path}.normal"), normal, frame.dimensions);
             let Some(normal) = normal.try_normalize() else {
-                report.problem(format!("{path}.normal"), "has no length", "point it out of the solid");
+                report.problem(
+                    format!("{path}.normal"),
+                    "has no length",
+                    "point it out of the solid",
+                );
                 return None;
             };
             Some(ColliderShape::Plane {
@@ -107,10 +137,20 @@ fn shape(
 }
 
 /// Whether a box's corners are in order; a problem if not.
-pub fn check_corners(path: &str, min: DVec3, max: DVec3, frame: &Frame, report: &mut Report) -> bool {
+pub fn check_corners(
+    path: &str,
+    min: DVec3,
+    max: DVec3,
+    frame: &Frame,
+    report: &mut Report,
+) -> bool {
     let wrong = frame.axes().find(|(axis, _)| min[*axis] >= max[*axis]);
     if let Some((_, name)) = wrong {
-        report.problem(path, format!("min is not below max along {name}"), "swap them, or move one");
+        report.problem(
+            path,
+            format!("min is not below max along {name}"),
+            "swap them, or move one",
+        );
     }
     wrong.is_none()
 }
@@ -125,7 +165,11 @@ pub fn mesh(
     report: &mut Report,
 ) -> Option<Mesh> {
     if frame.dimensions == Dimensions::Two {
-        report.problem(path, "a mesh in a 2D scene", "use a box or sphere, or set `dimensions` to 3");
+        report.problem(
+            path,
+            "a mesh in a 2D scene",
+            "use a box or sphere, or set `dimensions` to 3",
+        );
         return None;
     }
     let mesh = match Mesh::load(&folder.join(file)) {
@@ -148,10 +192,16 @@ pub fn mesh(
     Some(mesh.placed(placement.scale, rotate, translate))
 }
 
-pub const FILE_MEND: &str = "check the path, which is relative to the scene file, and the file itself";
+pub const FILE_MEND: &str =
+    "check the path, which is relative to the scene file, and the file itself";
 
 /// Degrees about the axes, and the move in local coordinates, metres.
-pub fn turn_and_place(path: &str, placement: &model::Placement, frame: &Frame, report: &mut Report) -> (DVec3, DVec3) {
+pub fn turn_and_place(
+    path: &str,
+    placement: &model::Placement,
+    frame: &Frame,
+    report: &mut Report,
+) -> (DVec3, DVec3) {
     let place = format!("{path}.placement.rotate");
     let rotate = match &placement.rotate {
         None => DVec3::ZERO,
@@ -159,7 +209,11 @@ pub fn turn_and_place(path: &str, placement: &model::Placement, frame: &Frame, r
         Some(turn) => report.vector(&place, turn, Dimensions::Three),
     };
     if frame.dimensions == Dimensions::Two && (rotate.x != 0.0 || rotate.y != 0.0) {
-        report.problem(place, "turns out of the plane of a 2D scene", "turn about z only: [0, 0, 30]");
+        report.problem(
+            place,
+            "turns out of the plane of a 2D scene",
+            "turn about z only: [0, 0, 30]",
+        );
     }
     let translate = report.optional(
         &format!("{path}.placement.translate"),
@@ -192,7 +246,9 @@ impl ColliderShape {
                 }
                 beyond.max(DVec3::ZERO).length() + beyond.max_element().min(0.0)
             }
-            Self::Sphere { center, radius } => point.distance(center.as_dvec3()) - f64::from(*radius),
+            Self::Sphere { center, radius } => {
+                point.distance(center.as_dvec3()) - f64::from(*radius)
+            }
             Self::Mesh(mesh) => mesh_distance(mesh, point),
         }
     }
@@ -210,7 +266,11 @@ fn mesh_distance(mesh: &Mesh, point: DVec3) -> f64 {
         let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
         solid_angle += 2.0 * a.dot(b.cross(c)).atan2(below);
     }
-    if solid_angle.abs() > 2.0 * PI { -nearest } else { nearest }
+    if solid_angle.abs() > 2.0 * PI {
+        -nearest
+    } else {
+        nearest
+    }
 }
 
 /// The point of a triangle that is nearest to zero (Ericson 2005, section 5.1.5).
@@ -241,4 +301,63 @@ fn nearest_to_origin(a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
         return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
     }
     a + ab * (vb / (va + vb + vc)) + ac * (vc / (va + vb + vc))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A box as a mesh, faces outward.
+    fn box_mesh(min: DVec3, max: DVec3) -> Mesh {
+        let corner =
+            |i: usize| DVec3::select(glam::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0), max, min);
+        let faces = [
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+        ];
+        let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
+        Mesh {
+            vertices: (0..8).map(corner).collect(),
+            triangles: faces.into_iter().flat_map(halves).collect(),
+        }
+    }
+
+    #[test]
+    fn a_box_of_triangles_is_a_box() {
+        let (min, max) = (DVec3::new(-1.0, 0.0, 0.5), DVec3::new(0.5, 2.0, 1.0));
+        let triangles = ColliderShape::Mesh(box_mesh(min, max));
+        let exact = ColliderShape::Box {
+            min: min.as_vec3(),
+            max: max.as_vec3(),
+        };
+        let ticks = [-1.7, -0.9, -0.3, 0.4, 0.6, 0.9, 1.3, 2.2];
+        let mut inside = 0;
+        for (x, y, z) in (0..512).map(|i| (ticks[i % 8], ticks[i / 8 % 8], ticks[i / 64])) {
+            let point = DVec3::new(x, y, z);
+            let expected = exact.distance(point, Dimensions::Three);
+            let distance = triangles.distance(point, Dimensions::Three);
+            assert!(
+                (distance - expected).abs() < 1e-9,
+                "{point}: {distance}, not {expected}"
+            );
+            inside += usize::from(expected < 0.0);
+        }
+        assert_eq!(inside, 3 * 4 * 2);
+    }
+
+    #[test]
+    fn a_flat_box_has_no_end_along_z() {
+        let shape = ColliderShape::Box {
+            min: glam::Vec3::ZERO,
+            max: glam::Vec3::new(2.0, 1.0, 0.0),
+        };
+        let distance = |x: f64, y: f64| shape.distance(DVec3::new(x, y, 0.0), Dimensions::Two);
+        assert_eq!(distance(1.0, 0.75), -0.25);
+        assert_eq!(distance(1.0, 1.5), 0.5);
+        assert_eq!(distance(5.0, 5.0), 5.0);
+    }
 }

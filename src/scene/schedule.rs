@@ -1,6 +1,5 @@
 //! Events and emitters, unrolled into what happens at which time.
 
-
 use glam::{DVec3, Vec3};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -48,7 +47,7 @@ pub fn schedule(
     order.sort_by(|(_, a), (_, b)| a.at.total_cmp(&b.at));
     for (i, event) in order {
         let path = format!("events[{i}]");
-        if event.at >= end && end > 0.0 {
+        if event.at >= end {
             report.notes.push(format!(
                 "{path} happens at {} s, but the run ends at {} s: it has no effect",
                 number(event.at),
@@ -95,9 +94,24 @@ struct Shift {
 }
 
 impl Unroll<'_> {
-    fn event(&mut self, path: &str, event: &Event, happens: bool, colliders: &[Collider], report: &mut Report) {
-        if event.set.is_none() && event.drop.is_none() && event.emitter.is_none() && event.move_collider.is_none() {
-            report.problem(path, "does nothing", "add `set`, `drop`, `emitter` or `move`");
+    fn event(
+        &mut self,
+        path: &str,
+        event: &Event,
+        happens: bool,
+        colliders: &[Collider],
+        report: &mut Report,
+    ) {
+        if event.set.is_none()
+            && event.drop.is_none()
+            && event.emitter.is_none()
+            && event.move_collider.is_none()
+        {
+            report.problem(
+                path,
+                "does nothing",
+                "add `set`, `drop`, `emitter` or `move`",
+            );
         }
         let time = event.at;
         let act = |action: Action| Scheduled { time, action };
@@ -105,7 +119,9 @@ impl Unroll<'_> {
             let place = format!("{path}.set");
             let law = self.law.changed(&place, change, report);
             let gravity = match &change.gravity {
-                Some(gravity) => report.vector(&format!("{place}.gravity"), gravity, self.frame.dimensions),
+                Some(gravity) => {
+                    report.vector(&format!("{place}.gravity"), gravity, self.frame.dimensions)
+                }
                 None => self.gravity,
             };
             if happens {
@@ -113,7 +129,8 @@ impl Unroll<'_> {
                 let contact = law.contact(self.mass);
                 self.contacts.push(contact);
                 let gravity = gravity.as_vec3();
-                self.actions.push(act(Action::SetParameters { gravity, contact }));
+                self.actions
+                    .push(act(Action::SetParameters { gravity, contact }));
             }
         }
         if event.drop.is_some() {
@@ -123,22 +140,40 @@ impl Unroll<'_> {
             }
         }
         if let Some(switch) = &event.emitter {
-            let names = self.file.emitters.iter().map(|emitter| emitter.name.as_str());
+            let names = self
+                .file
+                .emitters
+                .iter()
+                .map(|emitter| emitter.name.as_str());
             match names.clone().position(|name| name == switch.name) {
                 Some(i) => self.switches[i].push((time, switch.on)),
-                None => unknown(&format!("{path}.emitter.name"), "emitter", &switch.name, names, report),
+                None => unknown(
+                    &format!("{path}.emitter.name"),
+                    "emitter",
+                    &switch.name,
+                    names,
+                    report,
+                ),
             }
         }
         if let Some(given) = &event.move_collider {
-            let by = report.vector(&format!("{path}.move.by"), &given.by, self.frame.dimensions).as_vec3();
+            let by = report
+                .vector(&format!("{path}.move.by"), &given.by, self.frame.dimensions)
+                .as_vec3();
             let (start, end) = (time, time + given.during);
             let place = format!("{path}.move.collider");
-            let found = colliders.iter().position(|collider| collider.name == given.collider);
+            let found = colliders
+                .iter()
+                .position(|collider| collider.name == given.collider);
             match found {
                 Some(i) if happens => self.moves[i].push(Shift { start, end, by }),
                 Some(_) => {}
                 None => {
-                    let names = self.file.colliders.iter().map(|collider| collider.name.as_str());
+                    let names = self
+                        .file
+                        .colliders
+                        .iter()
+                        .map(|collider| collider.name.as_str());
                     // A collider that is itself wrong has its own message.
                     if !names.clone().any(|name| name == given.collider) {
                         let named = names.filter(|name| !name.is_empty());
@@ -152,9 +187,17 @@ impl Unroll<'_> {
     /// A ball of grains on a lattice.
     fn drop(&self, path: &str, event: &Event, report: &mut Report) -> Option<Particles> {
         let drop = event.drop.as_ref()?;
-        let center = report.vector(&format!("{path}.center"), &drop.center, self.frame.dimensions);
+        let center = report.vector(
+            &format!("{path}.center"),
+            &drop.center,
+            self.frame.dimensions,
+        );
         let center = self.frame.local(center);
-        let velocity = report.optional(&format!("{path}.velocity"), drop.velocity.as_ref(), self.frame.dimensions);
+        let velocity = report.optional(
+            &format!("{path}.velocity"),
+            drop.velocity.as_ref(),
+            self.frame.dimensions,
+        );
         self.check_inside(path, "the ball", center, DVec3::splat(drop.radius), report);
         let grain = self.file.grains.radius;
         let count = (drop.radius / grain).powi(self.frame.dimensions.count() as i32);
@@ -171,7 +214,14 @@ impl Unroll<'_> {
             radius: drop.radius,
         };
         let mut unused = ChaCha8Rng::seed_from_u64(self.file.seed);
-        let points = shapes::lattice(&region, self.frame.dimensions, grain, 2.0 * grain, 0.0, &mut unused);
+        let points = shapes::lattice(
+            &region,
+            self.frame.dimensions,
+            grain,
+            2.0 * grain,
+            0.0,
+            &mut unused,
+        );
         if points.is_empty() {
             let least = format!("give at least grains.radius, {} m", number(grain));
             report.problem(format!("{path}.radius"), "not one grain fits", least);
@@ -182,19 +232,30 @@ impl Unroll<'_> {
 
     fn emitter(&mut self, index: usize, emitter: &Emitter, end: f64, report: &mut Report) {
         let path = format!("emitters[{index}]");
-        if let Some(twin) = self.file.emitters[..index].iter().position(|other| other.name == emitter.name) {
+        if let Some(twin) = self.file.emitters[..index]
+            .iter()
+            .position(|other| other.name == emitter.name)
+        {
             report.problem(
                 format!("{path}.name"),
                 format!("emitters[{twin}] has the same name"),
                 "give each emitter its own",
             );
         }
-        let center = report.vector(&format!("{path}.center"), &emitter.center, self.frame.dimensions);
+        let center = report.vector(
+            &format!("{path}.center"),
+            &emitter.center,
+            self.frame.dimensions,
+        );
         let center = self.frame.local(center);
         let place = format!("{path}.velocity");
         let velocity = report.vector(&place, &emitter.velocity, self.frame.dimensions);
         let Some(axis) = velocity.try_normalize() else {
-            report.problem(place, "is zero: grains would never leave the emitter", "give it a speed");
+            report.problem(
+                place,
+                "is zero: grains would never leave the emitter",
+                "give it a speed",
+            );
             return;
         };
         let grain = self.file.grains.radius;
@@ -202,15 +263,24 @@ impl Unroll<'_> {
         if spacing < 2.0 * grain * (1.0 - 1e-9) {
             report.problem(
                 format!("{path}.spacing"),
-                format!("{} m is less than a grain's diameter: grains would overlap", number(spacing)),
+                format!(
+                    "{} m is less than a grain's diameter: grains would overlap",
+                    number(spacing)
+                ),
                 format!("give at least {} m, or leave it out", number(2.0 * grain)),
             );
             return;
         }
         let across = (DVec3::ONE - axis * axis).max(DVec3::ZERO);
-        let extent = (across * emitter.radius * emitter.radius).map(f64::sqrt);
-        self.check_inside(&path, "its disc", center, extent, report);
-        let points = match layer(center, axis, emitter.radius - grain, spacing, self.frame.dimensions) {
+        let extent = across.map(f64::sqrt) * (emitter.radius - grain).max(0.0) + grain;
+        self.check_inside(&path, "its first layer", center, extent, report);
+        let points = match layer(
+            center,
+            axis,
+            emitter.radius - grain,
+            spacing,
+            self.frame.dimensions,
+        ) {
             points if points.is_empty() => {
                 let least = format!("give at least grains.radius, {} m", number(grain));
                 report.problem(format!("{path}.radius"), "not one grain fits", least);
@@ -240,7 +310,14 @@ impl Unroll<'_> {
         }
     }
 
-    fn check_inside(&self, path: &str, thing: &str, center: DVec3, extent: DVec3, report: &mut Report) {
+    fn check_inside(
+        &self,
+        path: &str,
+        thing: &str,
+        center: DVec3,
+        extent: DVec3,
+        report: &mut Report,
+    ) {
         for (axis, name) in self.frame.axes() {
             let below = self.frame.min[axis] - (center - extent)[axis];
             let above = (center + extent)[axis] - self.frame.max[axis];
@@ -248,7 +325,10 @@ impl Unroll<'_> {
             if beyond > self.file.grains.radius * 1e-3 {
                 report.problem(
                     path,
-                    format!("{thing} reaches out of the domain along {name}, by {} m", number(beyond)),
+                    format!(
+                        "{thing} reaches out of the domain along {name}, by {} m",
+                        number(beyond)
+                    ),
                     "move or shrink it",
                 );
             }
@@ -297,14 +377,23 @@ fn flows(on_at_start: bool, switches: &[(f64, bool)], end: f64) -> Vec<(f64, f64
 }
 
 /// Points across `axis`, no farther than `reach` from the center: a hexagonal lattice, or a line in 2D.
-fn layer(center: DVec3, axis: DVec3, reach: f64, spacing: f64, dimensions: Dimensions) -> Vec<DVec3> {
+fn layer(
+    center: DVec3,
+    axis: DVec3,
+    reach: f64,
+    spacing: f64,
+    dimensions: Dimensions,
+) -> Vec<DVec3> {
     let reach = reach + 1e-9 * spacing;
     let steps = (reach / spacing).ceil().max(0.0) as i32;
     let mut points = Vec::new();
     if dimensions == Dimensions::Two {
         let along = DVec3::new(-axis.y, axis.x, 0.0);
         let line = (-steps..=steps).map(|i| f64::from(i) * spacing);
-        points.extend(line.filter(|s| s.abs() <= reach).map(|s| center + along * s));
+        points.extend(
+            line.filter(|s| s.abs() <= reach)
+                .map(|s| center + along * s),
+        );
         return points;
     }
     let (u, v) = axis.any_orthonormal_pair();
@@ -332,7 +421,10 @@ fn add_moves(collider: &mut Collider, moves: &[Shift]) {
     times.extend(moves.iter().flat_map(|shift| [shift.start, shift.end]));
     times.sort_by(f64::total_cmp);
     times.dedup();
-    collider.path = times.into_iter().map(|time| (time, offset_at(&own, moves, time))).collect();
+    collider.path = times
+        .into_iter()
+        .map(|time| (time, offset_at(&own, moves, time)))
+        .collect();
 }
 
 fn offset_at(own: &[(f64, Vec3)], moves: &[Shift], time: f64) -> Vec3 {
@@ -344,5 +436,8 @@ fn offset_at(own: &[(f64, Vec3)], moves: &[Shift], time: f64) -> Vec3 {
         (None, None) => Vec3::ZERO,
     };
     let share = |shift: &Shift| ((time - shift.start) / (shift.end - shift.start)).clamp(0.0, 1.0);
-    moves.iter().map(|shift| shift.by * share(shift) as f32).fold(base, |sum, by| sum + by)
+    moves
+        .iter()
+        .map(|shift| shift.by * share(shift) as f32)
+        .fold(base, |sum, by| sum + by)
 }

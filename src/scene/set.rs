@@ -13,7 +13,10 @@ pub fn apply(scene: &mut Value, assignment: &str) -> Result<(), Problem> {
     let place = || format!("--set {assignment}");
     let fail = |what: String, mend: String| Problem::new(place(), what, mend);
     let Some((path, text)) = assignment.split_once('=') else {
-        return Err(fail("no `=`".into(), "write it as path=value: grains.radius=0.01".into()));
+        return Err(fail(
+            "no `=`".into(),
+            "write it as path=value: grains.radius=0.01".into(),
+        ));
     };
     let steps = steps(path.trim()).ok_or_else(|| {
         fail(
@@ -46,7 +49,10 @@ pub fn apply(scene: &mut Value, assignment: &str) -> Result<(), Problem> {
                 let count = here.as_array().map_or(0, Vec::len);
                 let mend = match count {
                     0 => format!("`{walked}` holds {kind}; set it whole: {walked}=[...]"),
-                    _ => format!("`{walked}` has {count}, counted from 0: the last is {walked}[{}]", count - 1),
+                    _ => format!(
+                        "`{walked}` has {count}, counted from 0: the last is {walked}[{}]",
+                        count - 1
+                    ),
                 };
                 let missing = format!("there is no `{walked}[{index}]`");
                 walked.push_str(&format!("[{index}]"));

@@ -26,8 +26,15 @@ pub fn lattice(
         Region::Sphere { center, radius } => (*center - *radius, *center + *radius),
         _ => return Vec::new(),
     };
-    let count = ((max - min - 2.0 * radius) / spacing + 1e-6).floor().as_i64vec3() + 1;
-    let planes = if dimensions == Dimensions::Two { 1 } else { count.z };
+    let count = ((max - min - 2.0 * radius) / spacing + 1e-6)
+        .floor()
+        .as_i64vec3()
+        + 1;
+    let planes = if dimensions == Dimensions::Two {
+        1
+    } else {
+        count.z
+    };
     let first = (min + max) / 2.0 - (count - 1).as_dvec3() * spacing / 2.0;
     let mut points = Vec::new();
     for z in 0..planes {
@@ -38,9 +45,10 @@ pub fn lattice(
                     point.z = 0.0;
                 }
                 let inside = match region {
-                    Region::Sphere { center, radius: ball } => {
-                        point.distance(*center) + radius <= ball * (1.0 + 1e-9)
-                    }
+                    Region::Sphere {
+                        center,
+                        radius: ball,
+                    } => point.distance(*center) + radius <= ball * (1.0 + 1e-9),
                     _ => true,
                 };
                 if inside {

@@ -18,19 +18,34 @@ pub fn frames(time: &model::Time, report: &mut Report) -> u32 {
         report.problem(
             "time",
             format!("duration × fps makes {} frames", number(frames)),
-            format!("make at most {}: shorten `duration` or lower `fps`", number(MOST_FRAMES)),
+            format!(
+                "make at most {}: shorten `duration` or lower `fps`",
+                number(MOST_FRAMES)
+            ),
         );
     }
     frames.min(MOST_FRAMES) as u32
 }
 
 /// The step that resolves each of `contacts` (those that hold at any time of the run) and fits frames.
-pub fn time(time: &model::Time, frames: u32, contacts: &[Contact], mass: f64, report: &mut Report) -> Time {
-    let shortest = contacts.iter().map(|contact| contact.duration(mass)).fold(f64::INFINITY, f64::min);
+pub fn time(
+    time: &model::Time,
+    frames: u32,
+    contacts: &[Contact],
+    mass: f64,
+    report: &mut Report,
+) -> Time {
+    let shortest = contacts
+        .iter()
+        .map(|contact| contact.duration(mass))
+        .fold(f64::INFINITY, f64::min);
     let coarsest = shortest / FEWEST_STEPS_PER_CONTACT;
     let (mut step, mut limited_by) = match time.step {
         Some(step) => (step, "scene's step"),
-        None => (shortest / f64::from(time.steps_per_contact), "contact duration"),
+        None => (
+            shortest / f64::from(time.steps_per_contact),
+            "contact duration",
+        ),
     };
     if step > coarsest * (1.0 + 1e-9) {
         report.problem(
@@ -43,7 +58,10 @@ pub fn time(time: &model::Time, frames: u32, contacts: &[Contact], mass: f64, re
             format!("set it to at most {} s, leave it out, or make grains.spring softer", number(coarsest)),
         );
     }
-    let rate = contacts.iter().map(|contact| contact.damping_rate(mass)).fold(0.0, f64::max);
+    let rate = contacts
+        .iter()
+        .map(|contact| contact.damping_rate(mass))
+        .fold(0.0, f64::max);
     if step * rate > LARGEST_DAMPED_SHARE {
         step = LARGEST_DAMPED_SHARE / rate;
         limited_by = "damping";
@@ -59,7 +77,11 @@ pub fn time(time: &model::Time, frames: u32, contacts: &[Contact], mass: f64, re
     if steps_per_frame > MOST_STEPS_PER_FRAME {
         report.problem(
             "time",
-            format!("a frame takes {} steps of {} s", number(steps_per_frame), number(step)),
+            format!(
+                "a frame takes {} steps of {} s",
+                number(steps_per_frame),
+                number(step)
+            ),
             "raise `fps`, make grains.spring softer, or lower grains.damping and grains.shear",
         );
     }

@@ -16,7 +16,7 @@ use crate::error::Problem;
 
 /// Checks what the schema cannot say, completes what was left out, and turns the rest into numbers. Files named in
 /// the scene are looked up in `folder`.
-pub fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Problem>> {
+pub(super) fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Problem>> {
     let mut report = Report::default();
     let frame = Frame::new(&file, &mut report);
     if !report.problems.is_empty() {
@@ -73,7 +73,11 @@ pub fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Problem>> {
 }
 
 fn vector(numbers: &[f64]) -> DVec3 {
-    DVec3::new(numbers[0], numbers[1], numbers.get(2).copied().unwrap_or(0.0))
+    DVec3::new(
+        numbers[0],
+        numbers[1],
+        numbers.get(2).copied().unwrap_or(0.0),
+    )
 }
 
 /// Of one grain, kilograms: a ball, or a disc one metre thick.
@@ -87,17 +91,31 @@ fn mass(file: &SceneFile, dimensions: Dimensions) -> f64 {
 }
 
 /// Particles when everything has happened.
-fn capacity(file: &SceneFile, at_start: usize, schedule: &[super::Scheduled], report: &mut Report) -> u32 {
+fn capacity(
+    file: &SceneFile,
+    at_start: usize,
+    schedule: &[super::Scheduled],
+    report: &mut Report,
+) -> u32 {
     let added = schedule.iter().map(|scheduled| match &scheduled.action {
         Action::Add(particles) => particles.len(),
         Action::SetParameters { .. } => 0,
     });
     let all = (at_start + added.sum::<usize>()) as u64;
-    let comes_later = !file.emitters.is_empty() || file.events.iter().any(|event| event.drop.is_some());
+    let comes_later =
+        !file.emitters.is_empty() || file.events.iter().any(|event| event.drop.is_some());
     if file.bodies.is_empty() && !comes_later {
-        report.problem("", "there are no grains", "add a body, an emitter, or an event that drops grains");
+        report.problem(
+            "",
+            "there are no grains",
+            "add a body, an emitter, or an event that drops grains",
+        );
     } else if all == 0 && report.problems.is_empty() {
-        report.problem("", "no grain comes before the run ends", "let an event or emitter act earlier, or add a body");
+        report.problem(
+            "",
+            "no grain comes before the run ends",
+            "let an event or emitter act earlier, or add a body",
+        );
     }
     if all > MOST_PARTICLES {
         report.problem(
@@ -112,7 +130,11 @@ fn capacity(file: &SceneFile, at_start: usize, schedule: &[super::Scheduled], re
 fn neighbors(file: &SceneFile, dimensions: Dimensions, report: &mut Report) -> Neighbors {
     let given = &file.neighbors;
     if dimensions == Dimensions::Two && given.slicing_axis == Axis::Z {
-        report.problem("neighbors.slicing_axis", "a 2D scene has no z axis", "slice across `x` or `y`");
+        report.problem(
+            "neighbors.slicing_axis",
+            "a 2D scene has no z axis",
+            "slice across `x` or `y`",
+        );
     }
     Neighbors {
         addressing: given.addressing,
@@ -129,7 +151,11 @@ const LARGEST_FRAME: u32 = 16_384;
 /// How frames look, with the camera in local coordinates.
 fn render(file: &SceneFile, frame: &Frame, report: &mut Report) -> Render {
     let mut render = file.render.clone();
-    if render.size.iter().any(|side| !(SMALLEST_FRAME..=LARGEST_FRAME).contains(side)) {
+    if render
+        .size
+        .iter()
+        .any(|side| !(SMALLEST_FRAME..=LARGEST_FRAME).contains(side))
+    {
         let [width, height] = render.size;
         report.problem(
             "render.size",
@@ -152,7 +178,11 @@ fn render(file: &SceneFile, frame: &Frame, report: &mut Report) -> Render {
         );
     }
     if render.light.is_some_and(|light| light == [0.0; 3]) {
-        report.problem("render.light", "has no direction", "point it towards the light, or leave it out");
+        report.problem(
+            "render.light",
+            "has no direction",
+            "point it towards the light, or leave it out",
+        );
     }
     let camera = &mut render.camera;
     if camera.axis.is_some() && camera.eye.is_some() {
@@ -166,12 +196,20 @@ fn render(file: &SceneFile, frame: &Frame, report: &mut Report) -> Render {
         let Some(point) = point else { continue };
         if let Some(far) = point.iter().find(|x| x.abs() > 1e9) {
             let mend = "give numbers between -1e9 and 1e9";
-            report.problem(format!("render.camera.{key}"), format!("{} is too large", number(*far)), mend);
+            report.problem(
+                format!("render.camera.{key}"),
+                format!("{} is too large", number(*far)),
+                mend,
+            );
         }
         *point = frame.local(DVec3::from(*point)).into();
     }
     if camera.eye.is_some() && camera.eye == camera.target {
-        report.problem("render.camera", "`eye` and `target` are one point", "move them apart");
+        report.problem(
+            "render.camera",
+            "`eye` and `target` are one point",
+            "move them apart",
+        );
     }
     render
 }
