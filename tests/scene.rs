@@ -110,6 +110,23 @@ fn a_file_wins_over_a_name() {
 }
 
 #[test]
+fn meshes_that_ship_are_unpacked_beside_the_scenes() {
+    let folder = library::folder().unwrap();
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/meshes");
+    let mut count = 0;
+    for entry in shipped.read_dir().unwrap() {
+        let path = entry.unwrap().path();
+        let unpacked = folder.join("../meshes").join(path.file_name().unwrap());
+        assert_eq!(
+            std::fs::read(&unpacked).unwrap(),
+            std::fs::read(&path).unwrap()
+        );
+        count += 1;
+    }
+    assert!(count > 0);
+}
+
+#[test]
 fn a_filled_in_scene_is_a_valid_scene() {
     let scene = valid(&block(), &[]);
     let again = serde_json::to_value(&scene.file).unwrap();

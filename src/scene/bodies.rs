@@ -1,15 +1,15 @@
-//! Bodies: filled with grains, then freed of what overlaps earlier bodies, colliders or walls.
+//! Bodies, filled with grains.
 
-use std::collections::HashMap;
 use std::path::Path;
 
-use glam::{DVec3, IVec3};
+use glam::DVec3;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
+use super::fit::{self, Grains, Placed};
 use super::frame::{Frame, Report};
 use super::mesh::Mesh;
-use super::model::{self, Arrangement, Body, SceneFile, Shape, Wall};
+use super::model::{self, Arrangement, Body, SceneFile, Shape};
 use super::obstacles::{self, FILE_MEND, check_corners, turn_and_place};
 use super::shapes::{self, Region};
 use super::text::number;
@@ -17,10 +17,6 @@ use super::{Collider, Dimensions, Particles, particle_file};
 
 /// Ids, offsets and dispatches stay far inside 32 bits.
 pub const MOST_PARTICLES: u64 = 1 << 27;
-
-/// Share of a radius by which a grain may reach into a wall, a collider or another grain before it counts: rounding
-/// and lattices laid side by side stay far below.
-const TOLERANCE: f64 = 1e-3;
 
 /// The grains that are there from the start, in the order of the bodies.
 pub fn fill(
@@ -31,7 +27,7 @@ pub fn fill(
     report: &mut Report,
 ) -> Particles {
     let radius = file.grains.radius;
-    let mut placed = Placed::new(2.0 * radius * (1.0 - TOLERANCE));
+    let mut placed = Placed::new(2.0 * radius);
     let mut particles = Particles::default();
     for (i, body) in file.bodies.iter().enumerate() {
         let path = format!("bodies[{i}]");
@@ -46,8 +42,8 @@ pub fn fill(
             report.problem(&path, "is empty: not one grain fits", mend);
             continue;
         }
-        check_walls(&path, &grains.position, radius, frame, report);
-        remove_inside_colliders(
+        fit::check_walls(&path, &grains.position, radius, frame, report);
+        fit::remove_inside_colliders(
             &path,
             &mut grains,
             colliders,
@@ -55,7 +51,7 @@ pub fn fill(
             frame.dimensions,
             report,
         );
-        remove_overlaps(&path, &mut grains, &placed, report);
+        fit::remove_overlaps(&path, &mut grains, &placed, report);
         if i + 1 < file.bodies.len() {
             placed.add(&grains.position, i);
         }
@@ -67,22 +63,6 @@ pub fn fill(
             .extend(grains.velocity.iter().map(|v| v.as_vec3()));
     }
     particles
-}
-
-struct Grains {
-    /// Local, metres.
-    position: Vec<DVec3>,
-    /// m/s.
-    velocity: Vec<DVec3>,
-}
-
-impl Grains {
-    fn keep(&mut self, kept: &[bool]) {
-        let mut marks = kept.iter();
-        self.position.retain(|_| *marks.next().unwrap_or(&true));
-        let mut marks = kept.iter();
-        self.velocity.retain(|_| *marks.next().unwrap_or(&true));
-    }
 }
 
 fn grains(
@@ -113,7 +93,7 @@ fn grains(
             );
         }
         let mut grains = from_file(&shape, file, placement, velocity, frame, folder, report)?;
-        remove_coincident(&path, &mut grains, radius, report);
+        fit::remove_coincident(&path, &mut grains, radius, report);
         return Some(grains);
     }
     let region = region(&shape, &body.shape, frame, folder, report)?;
@@ -262,155 +242,7 @@ fn from_file(
         order.sort_by_key(|&i| ids[i]);
     }
     Some(Grains {
-        position: order.iter().map(|&i| position[i]).collect(),
+        position: order.iter().map(|&i| frame.snap(position[i])).collect(),
         velocity: order.iter().map(|&i| own[i] + velocity).collect(),
     })
-}
-
-/// Removes grains whose center an earlier grain of the same file covers: they would fly apart.
-fn remove_coincident(path: &str, grains: &mut Grains, radius: f64, report: &mut Report) {
-    let mut kept = vec![false; grains.position.len()];
-    for i in shapes::without_overlaps(&grains.position, radius) {
-        kept[i] = true;
-    }
-    let removed = kept.iter().filter(|kept| !**kept).count();
-    if removed > 0 {
-        let all = kept.len();
-        let what = "have their centers inside an earlier one and were left out";
-        report
-            .notes
-            .push(format!("{path}: {removed} of {all} particles {what}"));
-    }
-    grains.keep(&kept);
-}
-
-/// Grains that reach out of the domain: through a closed side at all, through an open one with their centers.
-fn check_walls(path: &str, grains: &[DVec3], radius: f64, frame: &Frame, report: &mut Report) {
-    for (axis, name) in frame.axes() {
-        let lowest = grains.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
-        let highest = grains
-            .iter()
-            .map(|p| p[axis])
-            .fold(f64::NEG_INFINITY, f64::max);
-        let [low, high] = frame.sides[axis];
-        let sides = [
-            ("min", low, frame.min[axis] - lowest),
-            ("max", high, highest - frame.max[axis]),
-        ];
-        for (end, wall, center_beyond) in sides {
-            let (beyond, says) = match wall {
-                Wall::Open => (center_beyond, "grains lie outside the domain's open side"),
-                Wall::Contact | Wall::Clamp => {
-                    (center_beyond + radius, "reaches through the domain's side")
-                }
-            };
-            if beyond > radius * TOLERANCE {
-                report.problem(
-                    path,
-                    format!("{says} {name}_{end}, by {} m", number(beyond)),
-                    "move or shrink it, or make the domain larger",
-                );
-            }
-        }
-    }
-}
-
-/// Removes grains that a collider, where it stands at the start, touches.
-fn remove_inside_colliders(
-    path: &str,
-    grains: &mut Grains,
-    colliders: &[Collider],
-    radius: f64,
-    dimensions: Dimensions,
-    report: &mut Report,
-) {
-    for (i, collider) in colliders.iter().enumerate() {
-        let offset = collider
-            .path
-            .first()
-            .map_or(DVec3::ZERO, |(_, offset)| offset.as_dvec3());
-        let bounds = collider.shape.bounds();
-        let reach = radius * (1.0 - TOLERANCE);
-        let is_free = |position: &DVec3| {
-            let point = *position - offset;
-            let far = bounds
-                .is_some_and(|(low, high)| (low - point).max(point - high).max_element() >= reach);
-            far || collider.shape.distance(point, dimensions) >= reach
-        };
-        let kept: Vec<bool> = grains.position.iter().map(is_free).collect();
-        let (all, removed) = (kept.len(), kept.iter().filter(|kept| !**kept).count());
-        grains.keep(&kept);
-        lost(path, removed, all, &format!("colliders[{i}]"), report);
-    }
-}
-
-/// Removes grains that overlap a grain of an earlier body.
-fn remove_overlaps(path: &str, grains: &mut Grains, placed: &Placed, report: &mut Report) {
-    let hits: Vec<Option<usize>> = grains.position.iter().map(|p| placed.body_at(*p)).collect();
-    let mut bodies: Vec<usize> = hits.iter().flatten().copied().collect();
-    bodies.sort_unstable();
-    let all = grains.position.len();
-    for same in bodies.chunk_by(|a, b| a == b) {
-        lost(
-            path,
-            same.len(),
-            all,
-            &format!("bodies[{}]", same[0]),
-            report,
-        );
-    }
-    let kept: Vec<bool> = hits.iter().map(Option::is_none).collect();
-    grains.keep(&kept);
-}
-
-/// A few overlapping grains are a note; more than half of a body is a mistake.
-fn lost(path: &str, removed: usize, all: usize, other: &str, report: &mut Report) {
-    if 2 * removed > all {
-        report.problem(
-            path,
-            format!("overlaps {other}: {removed} of its {all} grains"),
-            "move one of them, or remove one",
-        );
-    } else if removed > 0 {
-        report.notes.push(format!(
-            "{path}: {removed} of {all} grains overlap {other} and were left out"
-        ));
-    }
-}
-
-/// Grains placed so far, by cells as wide as the least distance.
-struct Placed {
-    least_distance: f64,
-    cells: HashMap<IVec3, Vec<(DVec3, usize)>>,
-}
-
-impl Placed {
-    fn new(least_distance: f64) -> Self {
-        Self {
-            least_distance,
-            cells: HashMap::new(),
-        }
-    }
-
-    fn cell(&self, point: DVec3) -> IVec3 {
-        (point / self.least_distance).floor().as_ivec3()
-    }
-
-    fn add(&mut self, points: &[DVec3], body: usize) {
-        for point in points {
-            let cell = self.cell(*point);
-            self.cells.entry(cell).or_default().push((*point, body));
-        }
-    }
-
-    /// The body whose grain is too near.
-    fn body_at(&self, point: DVec3) -> Option<usize> {
-        let home = self.cell(point);
-        let neighbors = (0..27).map(|i| home + IVec3::new(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
-        neighbors
-            .filter_map(|cell| self.cells.get(&cell))
-            .flatten()
-            .find(|(other, _)| other.distance(point) < self.least_distance)
-            .map(|(_, body)| *body)
-    }
 }

@@ -129,10 +129,15 @@ impl Frame {
         frame
     }
 
-    /// Local coordinates, snapped to a ten-millionth of the radius' decade, so that a scene moved by a million metres
-    /// gives the same numbers: what f64 lost by the move is smaller than half a quantum.
+    /// Local coordinates of a point of the scene.
     pub fn local(&self, point: DVec3) -> DVec3 {
-        ((point - self.origin) * self.quanta_per_metre).round() / self.quanta_per_metre
+        self.snap(point - self.origin)
+    }
+
+    /// Local coordinates, rounded to a ten-millionth of the radius' decade, so that a scene moved by a million metres
+    /// gives the same numbers: what f64 lost by the move is smaller than half a quantum.
+    pub fn snap(&self, local: DVec3) -> DVec3 {
+        (local * self.quanta_per_metre).round() / self.quanta_per_metre
     }
 
     pub fn domain(&self, restitution: f64) -> Domain {

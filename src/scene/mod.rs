@@ -8,12 +8,15 @@ pub mod color_maps;
 mod coloring;
 pub mod column;
 mod contact;
+mod emission;
+mod fit;
 mod frame;
 mod json;
 pub mod library;
 pub mod load;
 pub mod mesh;
 pub mod model;
+mod motion;
 mod obstacles;
 pub mod particle_file;
 mod schedule;
@@ -49,6 +52,7 @@ pub struct Scene {
     pub schedule: Vec<Scheduled>,
     pub neighbors: Neighbors,
     pub time: Time,
+    /// The camera's points are in local coordinates too.
     pub render: Render,
     pub color: Coloring,
     /// What was decided or dropped on the way (overlaps removed, say); told to the user.

@@ -429,7 +429,7 @@ pub struct Switch {
 #[serde(deny_unknown_fields)]
 pub struct Move {
     pub collider: String,
-    /// Metres, from where it is.
+    /// Metres, from where it is and on top of what its path goes on to do.
     pub by: Coordinates,
     /// Seconds that the move takes.
     #[schemars(range(min = 1e-9, max = 1e9))]

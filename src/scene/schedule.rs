@@ -1,16 +1,18 @@
 //! Events and emitters, unrolled into what happens at which time.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::bodies::MOST_PARTICLES;
 use super::contact::Law;
+use super::emission;
 use super::frame::{Frame, Report};
 use super::model::{Emitter, Event, SceneFile};
+use super::motion::{self, Shift};
 use super::shapes::{self, Region};
 use super::text::{number, suggest};
-use super::{Action, Collider, Contact, Dimensions, Particles, Scheduled};
+use super::{Action, Collider, Contact, Particles, Scheduled};
 
 /// An emitter's layers stand this many radii apart when the scene does not say: a tenth more than touching.
 const DEFAULT_SPACING_RADII: f64 = 2.2;
@@ -60,7 +62,7 @@ pub fn schedule(
         unroll.emitter(i, emitter, end, report);
     }
     for (collider, moves) in colliders.iter_mut().zip(&unroll.moves) {
-        add_moves(collider, moves);
+        motion::add(collider, moves);
     }
     unroll.actions.sort_by(|a, b| a.time.total_cmp(&b.time));
     Schedule {
@@ -81,16 +83,6 @@ struct Unroll<'a> {
     switches: Vec<Vec<(f64, bool)>>,
     /// By collider.
     moves: Vec<Vec<Shift>>,
-}
-
-/// One `move` event.
-#[derive(Clone, Copy)]
-struct Shift {
-    /// Seconds.
-    start: f64,
-    end: f64,
-    /// Metres.
-    by: Vec3,
 }
 
 impl Unroll<'_> {
@@ -274,7 +266,7 @@ impl Unroll<'_> {
         let across = (DVec3::ONE - axis * axis).max(DVec3::ZERO);
         let extent = across.map(f64::sqrt) * (emitter.radius - grain).max(0.0) + grain;
         self.check_inside(&path, "its first layer", center, extent, report);
-        let points = match layer(
+        let points = match emission::layer(
             center,
             axis,
             emitter.radius - grain,
@@ -289,7 +281,7 @@ impl Unroll<'_> {
             points => points,
         };
         let every = spacing / velocity.length();
-        let flows = flows(emitter.on, &self.switches[index], end);
+        let flows = emission::flows(emitter.on, &self.switches[index], end);
         let layers = |(from, to): &(f64, f64)| ((to - from) / every - 1e-9).ceil();
         let grains = flows.iter().map(layers).sum::<f64>() * points.len() as f64;
         if grains > MOST_PARTICLES as f64 {
@@ -356,88 +348,4 @@ fn unknown<'a>(
         None => format!("no {thing} has a name; give it one"),
     };
     report.problem(path, format!("no {thing} is called \"{name}\""), mend);
-}
-
-/// When an emitter flows: from and until, seconds.
-fn flows(on_at_start: bool, switches: &[(f64, bool)], end: f64) -> Vec<(f64, f64)> {
-    let mut flows = Vec::new();
-    let mut since = on_at_start.then_some(0.0);
-    for &(time, on) in switches.iter().filter(|(time, _)| *time < end) {
-        match (since, on) {
-            (None, true) => since = Some(time),
-            (Some(from), false) => {
-                flows.push((from, time));
-                since = None;
-            }
-            _ => {}
-        }
-    }
-    flows.extend(since.map(|from| (from, end)));
-    flows
-}
-
-/// Points across `axis`, no farther than `reach` from the center: a hexagonal lattice, or a line in 2D.
-fn layer(
-    center: DVec3,
-    axis: DVec3,
-    reach: f64,
-    spacing: f64,
-    dimensions: Dimensions,
-) -> Vec<DVec3> {
-    let reach = reach + 1e-9 * spacing;
-    let steps = (reach / spacing).ceil().max(0.0) as i32;
-    let mut points = Vec::new();
-    if dimensions == Dimensions::Two {
-        let along = DVec3::new(-axis.y, axis.x, 0.0);
-        let line = (-steps..=steps).map(|i| f64::from(i) * spacing);
-        points.extend(
-            line.filter(|s| s.abs() <= reach)
-                .map(|s| center + along * s),
-        );
-        return points;
-    }
-    let (u, v) = axis.any_orthonormal_pair();
-    let rows = (f64::from(steps) * 2.0 / 3f64.sqrt()).ceil() as i32;
-    for row in -rows..=rows {
-        let shift = f64::from(row.rem_euclid(2)) / 2.0;
-        let y = f64::from(row) * spacing * 3f64.sqrt() / 2.0;
-        for i in -steps - 1..=steps {
-            let x = (f64::from(i) + shift) * spacing;
-            if x.hypot(y) <= reach {
-                points.push(center + u * x + v * y);
-            }
-        }
-    }
-    points
-}
-
-/// Adds moves to a path: each shifts the collider on top of what its path does; moves that overlap in time add up.
-fn add_moves(collider: &mut Collider, moves: &[Shift]) {
-    if moves.is_empty() {
-        return;
-    }
-    let own = std::mem::take(&mut collider.path);
-    let mut times: Vec<f64> = own.iter().map(|(time, _)| *time).collect();
-    times.extend(moves.iter().flat_map(|shift| [shift.start, shift.end]));
-    times.sort_by(f64::total_cmp);
-    times.dedup();
-    collider.path = times
-        .into_iter()
-        .map(|time| (time, offset_at(&own, moves, time)))
-        .collect();
-}
-
-fn offset_at(own: &[(f64, Vec3)], moves: &[Shift], time: f64) -> Vec3 {
-    let next = own.partition_point(|(at, _)| *at <= time);
-    let base = match (next.checked_sub(1).map(|i| own[i]), own.get(next)) {
-        (Some((t0, a)), Some((t1, b))) => a.lerp(*b, ((time - t0) / (t1 - t0)) as f32),
-        (Some((_, offset)), None) => offset,
-        (None, Some((_, offset))) => *offset,
-        (None, None) => Vec3::ZERO,
-    };
-    let share = |shift: &Shift| ((time - shift.start) / (shift.end - shift.start)).clamp(0.0, 1.0);
-    moves
-        .iter()
-        .map(|shift| shift.by * share(shift) as f32)
-        .fold(base, |sum, by| sum + by)
 }
