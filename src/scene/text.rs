@@ -38,3 +38,34 @@ pub fn number(value: f64) -> String {
         format!("{rounded:e}")
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_word_is_near() {
+        let known = ["radius", "restitution", "x"];
+        assert_eq!(nearest("radus", known), Some("radius"));
+        assert_eq!(nearest("Restitutoin", known), Some("restitution"));
+        assert_eq!(nearest("spring", known), None);
+        // Any letter is one edit from `x`.
+        assert_eq!(nearest("q", known), None);
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        let expected = [
+            (0.0, "0"),
+            (0.1 + 0.2, "0.3"),
+            (-9.81, "-9.81"),
+            (0.001234567, "0.00123457"),
+            (1e6, "1000000"),
+            (1e-9, "1e-9"),
+            (2.5e12, "2.5e12"),
+        ];
+        for (value, text) in expected {
+            assert_eq!(number(value), text);
+        }
+    }
+}

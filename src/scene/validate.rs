@@ -26,7 +26,10 @@ pub(super) fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Prob
     let law = Law::new(&file.grains, &mut report);
     let mass = mass(&file, frame.dimensions);
     let mut colliders = obstacles::colliders(&file, &frame, folder, &mut report);
-    let particles = bodies::fill(&file, &frame, &colliders, folder, &mut report);
+    // When a collider is missing for its own mistake, the others' places in the list no longer name them.
+    let all_sound = colliders.len() == file.colliders.len();
+    let obstacles = if all_sound { &colliders[..] } else { &[] };
+    let particles = bodies::fill(&file, &frame, obstacles, folder, &mut report);
     let frames = time::frames(&file.time, &mut report);
     let end = f64::from(frames - 1) / file.time.fps;
     let schedule = schedule::schedule(&file, &frame, law, mass, end, &mut colliders, &mut report);
