@@ -23,9 +23,6 @@ const SPHERE: u32 = 2u;
 const MESH: u32 = 3u;
 
 var<storage, read> colliders: array<Collider>;
-#if moving_colliders
-var<storage, read> clock: Clock;
-#end
 #if mesh_colliders
 // Signed distances at the nodes of each mesh's field, m; x runs fastest, then y, then z.
 var<storage, read> distance_field: array<f32>;

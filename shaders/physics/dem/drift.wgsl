@@ -6,7 +6,6 @@
 #import physics/clamp_walls
 #end
 
-var<storage, read> clock: Clock;
 var<storage, read> position: array<Packed>;
 var<storage, read> velocity: array<Packed>;
 var<storage, read> acceleration: array<Packed>;

@@ -7,7 +7,6 @@
 #end
 
 var<storage, read> id: array<u32>;
-var<storage, read> clock: Clock;
 var<storage, read_write> next_position: array<Packed>;
 var<storage, read_write> next_velocity: array<Packed>;
 var<storage, read_write> next_id: array<u32>;
