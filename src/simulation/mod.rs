@@ -1,6 +1,7 @@
 //! Executes a plan: steps, frames, and what comes back of them.
 
 pub mod frame;
+mod neighbor_lists;
 mod segments;
 
 use std::collections::BTreeMap;
@@ -8,6 +9,7 @@ use std::collections::BTreeMap;
 use glam::Vec3;
 
 pub use frame::{ColumnData, Frame, Statistics, Values};
+pub use neighbor_lists::NeighborLists;
 
 use crate::error::{Casualty, Error, Result};
 use crate::gpu::readback::Ring;

@@ -2,8 +2,11 @@
 
 use std::path::Path;
 
+use sliceflow::gpu::{AdapterChoice, Gpu};
+use sliceflow::plan::{Plan, Wanted};
 use sliceflow::scene::Scene;
 use sliceflow::scene::load;
+use sliceflow::simulation::Simulation;
 
 /// A small scene that has a bit of everything, in two or three dimensions, with overrides.
 pub fn scene(dimensions: usize, overrides: &[&str]) -> Scene {
@@ -17,4 +20,12 @@ pub fn scene(dimensions: usize, overrides: &[&str]) -> Scene {
         Ok(scene) => scene,
         Err(error) => panic!("{error}"),
     }
+}
+
+/// A simulation of a scene on the test adapter, with all checks in the shaders.
+#[allow(dead_code)]
+pub fn simulate(scene: &Scene, wanted: &Wanted) -> Simulation {
+    let gpu = Gpu::open(&AdapterChoice::Best, true).expect("tests need an adapter; software Vulkan will do");
+    let plan = Plan::new(scene, &gpu.limits, wanted).expect("a plan");
+    Simulation::new(gpu, scene, &plan).expect("a simulation")
 }

@@ -1,6 +1,7 @@
 // All contacts of one grain: with grains, walls and obstacles. Knows nothing of the grid behind `<storage>`.
 #import common/vector
 #import common/parameters
+#import common/reach
 #import physics/dem/law
 #import <storage>
 #if contact_walls
@@ -23,9 +24,8 @@ fn sum_contacts(i: u32) -> ContactSum {
         for (var slot = range.x; slot < range.y; slot++) {
             let j = candidate(slot);
             let separation = unpack(position[j]) - x;
-            let distance_squared = dot(separation, separation);
-            if distance_squared < contact.diameter * contact.diameter && j != i {
-                let distance = sqrt(distance_squared);
+            if within(separation, contact.diameter) && j != i {
+                let distance = length(separation);
                 var normal = separation / distance;
                 if distance == 0.0 {
                     // Coincident grains part along x, the one that stands first to the left.
