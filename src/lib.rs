@@ -1,4 +1,5 @@
 //! Offline, headless particle simulator and renderer on wgpu.
 
 pub mod error;
+pub mod output;
 pub mod scene;
