@@ -6,6 +6,7 @@ use glam::{DVec3, IVec3};
 
 use super::frame::{Frame, Report};
 use super::model::Wall;
+use super::obstacles::Obstacle;
 use super::shapes;
 use super::text::number;
 use super::{Collider, Dimensions};
@@ -93,14 +94,9 @@ pub fn remove_inside_colliders(
             .path
             .first()
             .map_or(DVec3::ZERO, |(_, offset)| offset.as_dvec3());
-        let bounds = collider.shape.bounds();
+        let obstacle = Obstacle::new(&collider.shape, dimensions);
         let reach = radius * (1.0 - TOLERANCE);
-        let is_free = |position: &DVec3| {
-            let point = *position - offset;
-            let far = bounds
-                .is_some_and(|(low, high)| (low - point).max(point - high).max_element() >= reach);
-            far || collider.shape.distance(point, dimensions) >= reach
-        };
+        let is_free = |center: &DVec3| !obstacle.touches(*center - offset, reach);
         let kept: Vec<bool> = grains.position.iter().map(is_free).collect();
         let (all, removed) = (kept.len(), kept.iter().filter(|kept| !**kept).count());
         grains.keep(&kept);

@@ -1,12 +1,12 @@
-//! Colliders: from the scene file to local coordinates, and how far a point is from them.
+//! Colliders: from the scene file to local coordinates, and which grains touch them.
 
-use std::f64::consts::PI;
 use std::path::Path;
 
 use glam::DVec3;
 
 use super::frame::{Frame, Report};
 use super::mesh::Mesh;
+use super::mesh::surface::Surface;
 use super::text::number;
 use super::{Collider, ColliderShape, Dimensions, color_maps, model};
 
@@ -223,141 +223,95 @@ pub fn turn_and_place(
     (rotate, frame.local(translate))
 }
 
-impl ColliderShape {
-    /// Corners of the box around a shape that is dear to measure; cheap shapes need none.
-    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
-        match self {
-            Self::Mesh(mesh) => Some(mesh.bounds()),
+/// A collider's shape, ready to be asked which grains touch it.
+pub struct Obstacle<'a> {
+    shape: &'a ColliderShape,
+    /// Of a mesh.
+    surface: Option<Surface>,
+    dimensions: Dimensions,
+}
+
+impl<'a> Obstacle<'a> {
+    pub fn new(shape: &'a ColliderShape, dimensions: Dimensions) -> Self {
+        let surface = match shape {
+            ColliderShape::Mesh(mesh) => Some(Surface::new(mesh)),
             _ => None,
+        };
+        Self {
+            shape,
+            surface,
+            dimensions,
         }
     }
 
-    /// Signed distance from the surface, metres: negative inside.
-    pub fn distance(&self, point: DVec3, dimensions: Dimensions) -> f64 {
-        match self {
-            Self::Plane { point: at, normal } => normal.as_dvec3().dot(point - at.as_dvec3()),
-            Self::Box { min, max } => {
-                let (min, max) = (min.as_dvec3(), max.as_dvec3());
-                let mut beyond = (min - point).max(point - max);
-                if dimensions == Dimensions::Two {
-                    beyond.z = beyond.x.max(beyond.y);
-                    let outside = beyond.truncate().max(glam::DVec2::ZERO).length();
-                    return outside + beyond.max_element().min(0.0);
-                }
-                beyond.max(DVec3::ZERO).length() + beyond.max_element().min(0.0)
+    /// Whether a ball of radius `reach` touches it, or lies inside.
+    pub fn touches(&self, center: DVec3, reach: f64) -> bool {
+        match self.shape {
+            ColliderShape::Plane { point, normal } => {
+                normal.as_dvec3().dot(center - point.as_dvec3()) < reach
             }
-            Self::Sphere { center, radius } => {
-                point.distance(center.as_dvec3()) - f64::from(*radius)
+            ColliderShape::Box { min, max } => {
+                let nearest = center.clamp(min.as_dvec3(), max.as_dvec3());
+                let away = center - nearest;
+                let away = match self.dimensions {
+                    Dimensions::Two => away.with_z(0.0),
+                    Dimensions::Three => away,
+                };
+                away.length() < reach
             }
-            Self::Mesh(mesh) => mesh_distance(mesh, point),
+            ColliderShape::Sphere {
+                center: middle,
+                radius,
+            } => center.distance(middle.as_dvec3()) < f64::from(*radius) + reach,
+            ColliderShape::Mesh(_) => self.surface.as_ref().is_some_and(|surface| {
+                surface.distance(center, reach) < reach || surface.contains(center)
+            }),
         }
     }
-}
-
-/// By the distance to every triangle, and the winding number for the sign (Jacobson 2013).
-fn mesh_distance(mesh: &Mesh, point: DVec3) -> f64 {
-    let mut nearest = f64::INFINITY;
-    let mut solid_angle = 0.0;
-    for triangle in &mesh.triangles {
-        let [a, b, c] = triangle.map(|i| mesh.vertices[i as usize] - point);
-        nearest = nearest.min(nearest_to_origin(a, b, c).length());
-        // van Oosterom and Strackee 1983.
-        let (la, lb, lc) = (a.length(), b.length(), c.length());
-        let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-        solid_angle += 2.0 * a.dot(b.cross(c)).atan2(below);
-    }
-    if solid_angle.abs() > 2.0 * PI {
-        -nearest
-    } else {
-        nearest
-    }
-}
-
-/// The point of a triangle that is nearest to zero (Ericson 2005, section 5.1.5).
-fn nearest_to_origin(a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
-    let (ab, ac) = (b - a, c - a);
-    let (d1, d2) = (-ab.dot(a), -ac.dot(a));
-    let (d3, d4) = (-ab.dot(b), -ac.dot(b));
-    let (d5, d6) = (-ab.dot(c), -ac.dot(c));
-    if d1 <= 0.0 && d2 <= 0.0 {
-        return a;
-    }
-    if d3 >= 0.0 && d4 <= d3 {
-        return b;
-    }
-    if d6 >= 0.0 && d5 <= d6 {
-        return c;
-    }
-    let vc = d1 * d4 - d3 * d2;
-    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-        return a + ab * (d1 / (d1 - d3));
-    }
-    let vb = d5 * d2 - d1 * d6;
-    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-        return a + ac * (d2 / (d2 - d6));
-    }
-    let va = d3 * d6 - d5 * d4;
-    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
-        return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
-    }
-    a + ab * (vb / (va + vb + vc)) + ac * (vc / (va + vb + vc))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// A box as a mesh, faces outward.
-    fn box_mesh(min: DVec3, max: DVec3) -> Mesh {
-        let corner =
-            |i: usize| DVec3::select(glam::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0), max, min);
-        let faces = [
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-        ];
-        let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
-        Mesh {
-            vertices: (0..8).map(corner).collect(),
-            triangles: faces.into_iter().flat_map(halves).collect(),
-        }
-    }
+    use crate::scene::mesh::samples::cube;
 
     #[test]
     fn a_box_of_triangles_is_a_box() {
         let (min, max) = (DVec3::new(-1.0, 0.0, 0.5), DVec3::new(0.5, 2.0, 1.0));
-        let triangles = ColliderShape::Mesh(box_mesh(min, max));
+        let triangles = ColliderShape::Mesh(cube(min, max));
         let exact = ColliderShape::Box {
             min: min.as_vec3(),
             max: max.as_vec3(),
         };
+        let [triangles, exact] =
+            [&triangles, &exact].map(|shape| Obstacle::new(shape, Dimensions::Three));
         let ticks = [-1.7, -0.9, -0.3, 0.4, 0.6, 0.9, 1.3, 2.2];
-        let mut inside = 0;
-        for (x, y, z) in (0..512).map(|i| (ticks[i % 8], ticks[i / 8 % 8], ticks[i / 64])) {
-            let point = DVec3::new(x, y, z);
-            let expected = exact.distance(point, Dimensions::Three);
-            let distance = triangles.distance(point, Dimensions::Three);
-            assert!(
-                (distance - expected).abs() < 1e-9,
-                "{point}: {distance}, not {expected}"
-            );
-            inside += usize::from(expected < 0.0);
+        for reach in [0.05, 0.3, 0.7] {
+            let mut touching = 0;
+            for (x, y, z) in (0..512).map(|i| (ticks[i % 8], ticks[i / 8 % 8], ticks[i / 64])) {
+                let point = DVec3::new(x, y, z);
+                let expected = exact.touches(point, reach);
+                assert_eq!(
+                    triangles.touches(point, reach),
+                    expected,
+                    "{point}, {reach}"
+                );
+                touching += usize::from(expected);
+            }
+            assert!(touching >= 3 * 4 * 2);
         }
-        assert_eq!(inside, 3 * 4 * 2);
     }
 
     #[test]
-    fn a_flat_box_has_no_end_along_z() {
+    fn a_flat_box_touches_what_is_beside_it() {
         let shape = ColliderShape::Box {
             min: glam::Vec3::ZERO,
             max: glam::Vec3::new(2.0, 1.0, 0.0),
         };
-        let distance = |x: f64, y: f64| shape.distance(DVec3::new(x, y, 0.0), Dimensions::Two);
-        assert_eq!(distance(1.0, 0.75), -0.25);
-        assert_eq!(distance(1.0, 1.5), 0.5);
-        assert_eq!(distance(5.0, 5.0), 5.0);
+        let flat = Obstacle::new(&shape, Dimensions::Two);
+        let touches = |x: f64, y: f64, reach: f64| flat.touches(DVec3::new(x, y, 0.0), reach);
+        assert!(touches(1.0, 0.75, 0.01));
+        assert!(touches(1.0, 1.5, 0.51) && !touches(1.0, 1.5, 0.49));
+        assert!(touches(5.0, 5.0, 5.01) && !touches(5.0, 5.0, 4.99));
     }
 }
