@@ -1,2 +1,5 @@
+//! Offline, headless particle simulator and renderer on wgpu.
+
 pub mod error;
 pub mod gpu;
+pub mod scene;

@@ -2,8 +2,26 @@
 //!
 //! Everything in a [`Scene`] is finite, in SI units, and relative to [`Scene::origin`], which was subtracted in f64.
 
+mod bodies;
+pub mod check;
+mod coloring;
+pub mod color_maps;
 pub mod column;
+mod contact;
+mod frame;
+mod json;
+pub mod library;
+pub mod load;
+pub mod mesh;
 pub mod model;
+mod obstacles;
+pub mod particle_file;
+mod schedule;
+pub mod set;
+pub mod shapes;
+mod text;
+mod time;
+pub mod validate;
 
 use glam::{DVec3, Vec3};
 use model::{Addressing, Axis, Dashpot, Integrator, Render, SceneFile, Storage, Wall};
