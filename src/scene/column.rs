@@ -61,6 +61,12 @@ pub const COLUMNS: &[Column] = &[
     column("slice", "", "voxel coordinate along the slicing axis", Source::Search),
 ];
 
+/// Vectors, which particle files keep whole: one row a particle.
+pub const VECTORS: &[Column] = &[
+    column("position", "m", "where the grain's center is, in the scene's coordinates", Source::State),
+    column("velocity", "m/s", "velocity of the grain's center", Source::State),
+];
+
 /// The column with this name.
 pub fn find(name: &str) -> Option<Column> {
     COLUMNS.iter().copied().find(|column| column.name == name)
