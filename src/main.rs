@@ -4,15 +4,17 @@ use std::process::ExitCode;
 use sliceflow::error::Error;
 
 fn main() -> ExitCode {
-    let Err(error) = sliceflow::cli::main() else {
-        return ExitCode::SUCCESS;
-    };
-    let label = if matches!(error, Error::Interrupted { .. }) {
-        ""
-    } else {
-        "error: "
-    };
+    quiet_display_layer();
+    let Err(error) = sliceflow::cli::main() else { return ExitCode::SUCCESS };
+    let label = if matches!(error, Error::Interrupted { .. }) { "" } else { "error: " };
     // Where nobody reads standard error, the exit status still tells.
     let _ = writeln!(std::io::stderr(), "{label}{error}");
     ExitCode::from(error.exit_code())
+}
+
+/// Mesa's device selection layer looks for a display, and complains on standard error where there is none. Sliceflow
+/// has no use for one.
+fn quiet_display_layer() {
+    // SAFETY: the program has one thread yet.
+    unsafe { std::env::set_var("NODEVICE_SELECT", "1") };
 }
