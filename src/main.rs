@@ -5,8 +5,14 @@ use sliceflow::error::Error;
 
 fn main() -> ExitCode {
     quiet_display_layer();
-    let Err(error) = sliceflow::cli::main() else { return ExitCode::SUCCESS };
-    let label = if matches!(error, Error::Interrupted { .. }) { "" } else { "error: " };
+    let Err(error) = sliceflow::cli::main() else {
+        return ExitCode::SUCCESS;
+    };
+    let label = if matches!(error, Error::Interrupted { .. }) {
+        ""
+    } else {
+        "error: "
+    };
     // Where nobody reads standard error, the exit status still tells.
     let _ = writeln!(std::io::stderr(), "{label}{error}");
     ExitCode::from(error.exit_code())

@@ -198,7 +198,7 @@ fn fewer_outputs_need_less_disk() {
             .as_u64()
             .unwrap()
     };
-    assert!(disk(&["--no-pictures", "--no-statistics"]) == 0);
+    assert_eq!(disk(&["--no-pictures", "--no-statistics"]), 0);
     assert!(disk(&["--no-pictures"]) < disk(&[]));
     assert!(disk(&[]) < disk(&["--particles", "npy"]));
 }
@@ -293,6 +293,56 @@ fn an_earlier_run_is_replaced_only_with_force() {
         "mine"
     );
     image::open(folder.path().join("frame_000000.png")).unwrap();
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_keeps_its_frames_and_says_so() {
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let args = [
+        "run",
+        "column_2d",
+        "--out",
+        out,
+        "--frames",
+        "100000",
+        "--fps",
+        "1000",
+        "--size",
+        "64x48",
+    ];
+    let program = assert_cmd::cargo::cargo_bin!("sliceflow");
+    let mut run = Command::new(program)
+        .args(args)
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let patience = Instant::now();
+    while !folder.path().join("frame_000001.png").exists() {
+        assert!(patience.elapsed() < Duration::from_secs(120) && run.try_wait().unwrap().is_none());
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    Command::new("kill")
+        .args(["-INT", &run.id().to_string()])
+        .status()
+        .unwrap();
+    assert_eq!(run.wait().unwrap().code(), Some(130));
+
+    let manifest = read_json(&folder.path().join("run.json"));
+    assert_eq!(manifest["status"], "interrupted");
+    let frames = manifest["frames_done"].as_u64().unwrap();
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count() as u64, frames + 2);
+    assert_eq!(
+        fs::read_to_string(folder.path().join("stats.jsonl"))
+            .unwrap()
+            .lines()
+            .count() as u64,
+        frames
+    );
 }
 
 #[test]

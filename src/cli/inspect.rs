@@ -15,7 +15,7 @@ use crate::output::{Progress, Tally, compose_picture, encode_png, progress, writ
 use crate::plan::{Plan, Wanted};
 use crate::render::Overlay;
 use crate::scene::Scene;
-use crate::scene::model::{Storage, View};
+use crate::scene::model::Storage;
 use crate::simulation::Simulation;
 use crate::simulation::frame::{Frame, Statistics};
 
@@ -99,7 +99,7 @@ struct Occupancy {
 
 fn inspect(scene: &Scene, adapter: &AdapterChoice, picture: Option<&PathBuf>) -> Result<Occupancy> {
     let gpu = Gpu::open(adapter, false)?;
-    let view = picture.map(|_| View::Pool);
+    let view = picture.map(|_| scene.render.view);
     let plan = Plan::new(
         scene,
         &gpu.limits,
@@ -112,7 +112,7 @@ fn inspect(scene: &Scene, adapter: &AdapterChoice, picture: Option<&PathBuf>) ->
     let mut simulation = Simulation::new(gpu, scene, &plan)?;
     let frame = last_frame(&mut simulation, scene.time.frames)?;
     if let Some(path) = picture
-        && let Some(picture) = compose_picture(&frame, &Overlay::new(scene, View::Pool)?)
+        && let Some(picture) = compose_picture(&frame, &Overlay::new(scene, scene.render.view)?)
     {
         write_file(path, &encode_png(picture, path)?)?;
     }

@@ -13,7 +13,7 @@ use crate::gpu::device::{self, Limits, describe};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::output::text::{bytes, count};
 use crate::output::{Outputs, disk_bytes};
-use crate::plan::Plan;
+use crate::plan::{Phase, Plan};
 use crate::scene::Scene;
 
 /// Says what a run would do: buffers, passes, time step, memory, disk
@@ -194,7 +194,7 @@ impl fmt::Display for Report<'_> {
         for pass in &plan.passes {
             passes.row([
                 pass.label.clone(),
-                format!("{:?}", pass.phase).to_lowercase(),
+                when(pass.phase).to_owned(),
                 count(pass.items.into()),
                 pass.shader.clone(),
                 pass.why.clone(),
@@ -216,5 +216,13 @@ impl fmt::Display for Report<'_> {
             writeln!(f)?;
         }
         Ok(())
+    }
+}
+
+fn when(phase: Phase) -> &'static str {
+    match phase {
+        Phase::Start => "at the start",
+        Phase::Step => "each step",
+        Phase::Observe => "each frame",
     }
 }

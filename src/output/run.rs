@@ -117,7 +117,7 @@ pub fn run(scene: &Scene, settings: &Settings) -> Result<()> {
     let gpu = Gpu::open(&settings.adapter, false)?;
     if gpu.is_software() {
         progress.warn(&format!(
-            "{} computes on the processor, which is slow",
+            "software adapter {} computes on the processor, which is slow",
             describe(&gpu.adapter)
         ));
     }
@@ -140,6 +140,7 @@ pub fn run(scene: &Scene, settings: &Settings) -> Result<()> {
     if let Some(told) = folder.clear()? {
         progress.note(&told);
     }
+    let sinks = settings.outputs.sinks(scene, &folder)?;
     let files = settings.outputs.files(scene);
     let mut manifest = Manifest::new(
         folder.manifest(),
@@ -153,7 +154,7 @@ pub fn run(scene: &Scene, settings: &Settings) -> Result<()> {
 
     interrupt::listen();
     let mut run = Run {
-        sinks: settings.outputs.sinks(scene, &folder)?,
+        sinks,
         progress,
         health: Health::default(),
         tally: Tally::start(scene.time.frames),
