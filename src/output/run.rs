@@ -238,11 +238,15 @@ impl Run {
             self.progress
                 .note(&format!("milliseconds a frame: {}", times.join(", ")));
         }
-        let end = if outcome.is_ok() { "done" } else { "stopped" };
+        let frames = self.tally.frames_done;
+        let end = if outcome.is_ok() {
+            format!("done: {frames} frames")
+        } else {
+            format!("stopped after {frames} frames")
+        };
         self.progress.finish(
             &format!(
-                "{end}: {} frames in {} ({}, {} particle steps/s)",
-                self.tally.frames_done,
+                "{end} in {} ({}, {} particle steps/s)",
                 folder.path().display(),
                 seconds(self.tally.wall_s),
                 short(self.tally.particle_steps_per_s)

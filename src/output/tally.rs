@@ -8,6 +8,7 @@ use crate::simulation::frame::Frame;
 
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Tally {
+    /// Simulated and handed to the sinks.
     pub frames_done: u32,
     /// Of the whole run.
     pub frames: u32,

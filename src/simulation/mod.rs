@@ -37,14 +37,14 @@ impl Simulation {
             step_s: self.scene.time.step,
             particles: self.scene.capacity,
             pixels: Some([40, 80, 160, 255].repeat((width * height) as usize)),
-            statistics: Some(Statistics::default()),
-            columns: vec![ColumnData {
-                name: "position",
-                values: Values::Double {
-                    columns: 3,
-                    values: vec![0.0; 3 * self.scene.capacity as usize],
+            statistics: Some(Statistics { voxels_allocated: 1000 - 500 * self.scene.neighbors.addressing as u32, ..Statistics::default() }),
+            columns: vec![
+                ColumnData {
+                    name: "position",
+                    values: Values::Double { columns: 3, values: vec![0.0; 3 * self.scene.capacity as usize] },
                 },
-            }],
+                ColumnData { name: "id", values: Values::Unsigned((0..self.scene.capacity).collect()) },
+            ],
             pass_ms: vec![("integrate".into(), 0.5)],
         }))
     }
