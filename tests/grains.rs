@@ -8,12 +8,11 @@ use glam::{DVec3, Vec3};
 use reference::Reference;
 use sliceflow::error::Error;
 use sliceflow::plan::Wanted;
-use sliceflow::scene::column;
 use sliceflow::scene::{Particles, Scene};
 use sliceflow::simulation::{Frame, Simulation, Values};
 
 fn wanted() -> Wanted {
-    let columns = ["position", "velocity", "contacts"].iter().filter_map(|name| column::find(name)).collect();
+    let columns = sliceflow::output::columns_named(["position", "velocity", "contacts"]).expect("columns");
     Wanted { statistics: true, columns, view: None }
 }
 
