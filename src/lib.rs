@@ -1,2 +1,4 @@
 pub mod error;
 pub mod gpu;
+pub mod render;
+pub mod scene;

@@ -3,7 +3,18 @@
 // Threads of a workgroup, in passes over particles or voxels.
 const GROUP_SIZE: u32 = 64u;
 
-// The item of this thread, when workgroups were folded into two dimensions (Pass::encode).
-fn thread_index(group: vec3u, groups: vec3u, local_index: u32) -> u32 {
-    return (group.y * groups.x + group.x) * GROUP_SIZE + local_index;
+struct Thread {
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) local_index: u32,
+}
+
+// Workgroups may be folded into two dimensions (Pass::encode).
+fn group_index(thread: Thread) -> u32 {
+    return thread.group.y * thread.groups.x + thread.group.x;
+}
+
+// The item of this thread.
+fn item_index(thread: Thread) -> u32 {
+    return group_index(thread) * GROUP_SIZE + thread.local_index;
 }

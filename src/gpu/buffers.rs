@@ -6,9 +6,10 @@ use crate::error::{Error, Result};
 use crate::gpu::Gpu;
 
 /// How a buffer is used besides being bound.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Usage {
     Uniform,
+    #[default]
     Storage,
 }
 

@@ -1,9 +1,10 @@
 //! Puts shader modules together from files, with a true place for every line.
 //!
-//! Three directives, each alone on its line:
+//! Directives, each alone on its line:
 //! - `#import common/vector` takes in `shaders/common/vector.wgsl` once; `#import <addressing>` takes the file that
 //!   the plan chose for that role, so that physics never names a grid;
 //! - `#if flag`, `#if !flag`, `#else`, `#end` keep lines only where the plan set the flag;
+//! - `#flag name` sets a flag for this composition, for what the file imports below;
 //! - constants that the plan set stand in front as `const NAME = value;`.
 //!
 //! The libraries that do this (naga_oil, wesl) rename what they import; here a buffer has one name everywhere, and
@@ -20,7 +21,7 @@ static SHADERS: Dir = include_dir!("$CARGO_MANIFEST_DIR/shaders");
 /// What a plan chose: which lines and files a shader is made of.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Variant {
-    pub flags: BTreeSet<&'static str>,
+    pub flags: BTreeSet<String>,
     /// WGSL constants of type u32.
     pub constants: BTreeMap<&'static str, u32>,
     /// Role → file without its ending: `addressing` → `cells/sliced`.
@@ -28,9 +29,9 @@ pub struct Variant {
 }
 
 impl Variant {
-    pub fn flag(&mut self, name: &'static str, on: bool) -> &mut Self {
+    pub fn flag(&mut self, name: &str, on: bool) -> &mut Self {
         if on {
-            self.flags.insert(name);
+            self.flags.insert(name.to_owned());
         }
         self
     }
@@ -93,7 +94,7 @@ pub fn compose(path: &str, variant: &Variant) -> Result<Composed> {
         composed.push(&format!("const {name}: u32 = {value}u;"), "(plan)", 0);
     }
     let mut seen = BTreeSet::new();
-    composed.import(path, variant, &mut seen, "(plan)")?;
+    composed.import(path, &mut variant.clone(), &mut seen, "(plan)")?;
     Ok(composed)
 }
 
@@ -107,7 +108,7 @@ impl Composed {
     fn import(
         &mut self,
         path: &str,
-        variant: &Variant,
+        variant: &mut Variant,
         seen: &mut BTreeSet<String>,
         from: &str,
     ) -> Result<()> {
@@ -132,6 +133,9 @@ impl Composed {
                     Some(flag) => !variant.flags.contains(flag),
                     None => variant.flags.contains(flag),
                 }),
+                (Some("#flag"), Some(flag)) if keep => {
+                    variant.flag(flag, true);
+                }
                 (Some("#else"), None) => match open.last_mut() {
                     Some(kept) => *kept = !*kept,
                     None => return Err(fail(format!("{place}: #else without #if"))),
@@ -147,12 +151,12 @@ impl Composed {
                     }
                     let role = what.strip_prefix('<').and_then(|w| w.strip_suffix('>'));
                     let target = match role {
-                        Some(role) => variant.roles.get(role).map(String::as_str).ok_or_else(|| {
+                        Some(role) => variant.roles.get(role).cloned().ok_or_else(|| {
                             fail(format!("{place}: the plan gives no file for the role <{role}>"))
                         })?,
-                        None => what,
+                        None => what.to_owned(),
                     };
-                    self.import(target, variant, seen, &place)?;
+                    self.import(&target, variant, seen, &place)?;
                 }
                 (Some(word), _) if word.starts_with('#') => {
                     return Err(fail(format!("{place}: `{line}` is no directive")));

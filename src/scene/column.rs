@@ -8,6 +8,8 @@ pub struct Column {
     pub unit: &'static str,
     pub about: &'static str,
     pub source: Source,
+    /// Whether it has a value along each axis; such a column is written to files but colors nothing.
+    pub vector: bool,
 }
 
 /// Where a column's values come from.
@@ -32,11 +34,24 @@ const fn column(
         unit,
         about,
         source,
+        vector: false,
+    }
+}
+
+const fn vector(name: &'static str, unit: &'static str, about: &'static str) -> Column {
+    Column {
+        name,
+        unit,
+        about,
+        source: Source::State,
+        vector: true,
     }
 }
 
 /// Every column there is.
 pub const COLUMNS: &[Column] = &[
+    vector("position", "m", "center, in the scene's coordinates"),
+    vector("velocity", "m/s", "velocity"),
     column("speed", "m/s", "magnitude of the velocity", Source::State),
     column("x", "m", "position along x, in the scene's coordinates", Source::State),
     column("y", "m", "position along y, in the scene's coordinates", Source::State),

@@ -2,7 +2,9 @@
 //!
 //! Everything in a [`Scene`] is finite, in SI units, and relative to [`Scene::origin`], which was subtracted in f64.
 
+pub mod color_maps;
 pub mod column;
+pub mod mesh;
 pub mod model;
 
 use glam::{DVec3, Vec3};
