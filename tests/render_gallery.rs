@@ -6,7 +6,7 @@ mod stage;
 use std::time::Instant;
 
 use glam::Vec3;
-use sliceflow::gpu::{AdapterChoice, Gpu};
+use sliceflow::gpu::{AdapterChoice, Gpu, readback};
 use sliceflow::render::{Caption, Overlay, Renderer};
 use sliceflow::scene::model::{Background, View};
 use sliceflow::scene::{Collider, ColliderShape, Dimensions, Particles, Scene};
@@ -21,6 +21,8 @@ fn save(name: &str, gpu: &Gpu, scene: &Scene, particles: &Particles) {
     let start = Instant::now();
     let pixels = stage::frame(gpu, &renderer, &buffers, count, &offsets);
     println!("{name}: {count} particles, {:.0} ms", start.elapsed().as_secs_f64() * 1e3);
+    let splat: Vec<u32> = readback::read(gpu, buffers.get("splat", "(test)").unwrap(), particles.len()).unwrap();
+    println!("  {} hidden", splat.iter().filter(|&&look| look == 0).count());
     let caption = Caption { frame: 0, time: 1.234, particles: count, voxels: None };
     let image = Overlay::new(scene, View::Scene).unwrap().finish(pixels, &caption).unwrap();
     std::fs::create_dir_all("out/render").unwrap();
@@ -42,7 +44,7 @@ fn sphere(center: Vec3, radius: f32) -> Collider {
 fn gallery() {
     let gpu = Gpu::open(&AdapterChoice::Best, false).unwrap();
     let size = [1280, 720];
-    for (name, radius, count) in [("heap20k", 0.0135, 20_000), ("heap65k", 0.0092, 65_536)] {
+    for (name, radius, count) in [("heap20k", 0.0185, 20_000), ("heap65k", 0.0125, 65_536)] {
         let mut scene =
             stage::scene(Dimensions::Three, Vec3::splat(-1.0), Vec3::new(1.0, 0.6, 1.0), radius, size);
         let particles = stage::heap(&scene, count);

@@ -29,10 +29,7 @@ fn backdrop(pixel: vec2f) -> vec3f {
         var shade = 0.0;
 #if shadows
         if fade > 0.0 {
-            let up = vec3f(0.0, 1.0, 0.0);
-            for (var k = 0u; k < 4u; k += 1u) {
-                shade += 0.25 * (1.0 - sunlight(point, up, vec2f(f32(k & 1u), f32(k >> 1u))));
-            }
+            shade = 1.0 - soft_sunlight(point);
         }
 #end
         color = mix(color, picture.floor_color.rgb * (1.0 - picture.floor_color.w * shade), fade);

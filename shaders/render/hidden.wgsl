@@ -3,8 +3,6 @@
 #import render/picture
 #import render/splat_quad
 
-const BLOCK: u32 = 8u; // as in occlusion.wgsl
-
 var occluder_depth: texture_depth_2d;
 var<storage, read> block_depth: array<f32>;
 
@@ -35,9 +33,9 @@ fn is_hidden(center: vec3f) -> bool {
         return false;
     }
     let depth = nearest.z / nearest.w;
-    let blocks = (picture.rectangle.zw + BLOCK - 1u) / BLOCK;
-    let first_block = vec2u(max(low, vec2f(0.0))) / BLOCK;
-    let last_block = min(vec2u(clamp(high, vec2f(0.0), size)) / BLOCK, blocks - 1u);
+    let blocks = (picture.rectangle.zw + OCCLUSION_BLOCK - 1u) / OCCLUSION_BLOCK;
+    let first_block = vec2u(max(low, vec2f(0.0))) / OCCLUSION_BLOCK;
+    let last_block = min(vec2u(clamp(high, vec2f(0.0), size)) / OCCLUSION_BLOCK, blocks - 1u);
     let spread = last_block - first_block + 1u;
     if spread.x * spread.y > 64u {
         return false;

@@ -23,7 +23,7 @@ impl Light {
         let toward = match scene.render.light {
             Some(light) => DVec3::from(light).normalize_or(DVec3::Y),
             // From above, over the viewer's left shoulder.
-            None => (DVec3::Y - first.right * 0.62 - first.forward * 0.50).normalize(),
+            None => (DVec3::Y - first.right * 0.80 - first.forward * 0.42).normalize(),
         };
         let (right, up) = toward.any_orthonormal_pair();
         let (low, high) = bounds(scene);

@@ -9,7 +9,7 @@ use crate::gpu::buffers::Usage;
 use crate::scene::Scene;
 use crate::scene::model::View;
 
-/// Pixels along a side of the blocks that hide spheres; `BLOCK` of `shaders/render/occlusion.wgsl`.
+/// Pixels along a side of the blocks that hide spheres; `OCCLUSION_BLOCK` in shaders.
 pub const BLOCK: u32 = 8;
 
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -3,6 +3,7 @@
 use super::camera::Sight;
 use super::layout::Layout;
 use super::light::{Light, SHADOW_TEXELS};
+use super::needs::BLOCK;
 use super::picture::floor_height;
 use crate::gpu::Variant;
 use crate::scene::model::{Addressing, Splat, View};
@@ -65,6 +66,7 @@ impl Style {
             .flag("round_shadows", self.round_shadows)
             .flag("has_floor", self.floor)
             .constant("SHADOW_TEXELS", SHADOW_TEXELS)
+            .constant("OCCLUSION_BLOCK", BLOCK)
             .role("column", format!("render/columns/{}", scene.color.column.name));
         variant
     }
