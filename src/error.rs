@@ -15,11 +15,7 @@ pub struct Problem {
 }
 
 impl Problem {
-    pub fn new(
-        path: impl Into<String>,
-        what: impl Into<String>,
-        mend: impl Into<String>,
-    ) -> Self {
+    pub fn new(path: impl Into<String>, what: impl Into<String>, mend: impl Into<String>) -> Self {
         Self {
             path: path.into(),
             what: what.into(),
@@ -142,9 +138,15 @@ impl fmt::Display for Error {
                 reason,
                 mend,
             } => {
-                write!(f, "cannot {doing} {}: {reason}\n  mend: {mend}", path.display())
+                write!(
+                    f,
+                    "cannot {doing} {}: {reason}\n  mend: {mend}",
+                    path.display()
+                )
             }
-            Self::Device { what, mend } | Self::Limit { what, mend } | Self::Usage { what, mend } => {
+            Self::Device { what, mend }
+            | Self::Limit { what, mend }
+            | Self::Usage { what, mend } => {
                 write!(f, "{what}\n  mend: {mend}")
             }
             Self::Shader { message } => write!(
@@ -163,7 +165,10 @@ impl fmt::Display for Error {
                 )
             }
             Self::Interrupted { frames_done } => {
-                write!(f, "interrupted; {frames_done} finished frame(s) are on disk")
+                write!(
+                    f,
+                    "interrupted; {frames_done} finished frame(s) are on disk"
+                )
             }
         }
     }

@@ -1,4 +1,9 @@
 pub mod error;
 pub mod gpu;
+pub mod neighbors;
+pub mod output;
+pub mod physics;
+pub mod plan;
 pub mod render;
 pub mod scene;
+pub mod simulation;

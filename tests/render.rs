@@ -7,6 +7,7 @@ use glam::{DVec4, Vec3};
 use image::{Rgba, RgbaImage};
 use sliceflow::gpu::buffers::Usage;
 use sliceflow::gpu::{Gpu, readback};
+use sliceflow::neighbors::grid::Grid;
 use sliceflow::render::{Caption, Layout, Overlay, POOL_COLORS, Renderer, Sight};
 use sliceflow::scene::model::{Axis, Splat, View};
 use sliceflow::scene::{Dimensions, Particles, Scene, color_maps};
@@ -220,10 +221,11 @@ fn two_draws_give_the_same_bytes_and_the_legend_shows() {
 
 fn heatmap(gpu: &Gpu, scene: &Scene, counts: &[u32]) -> (RgbaImage, [u32; 3]) {
     let mut buffers = stage::buffers(gpu, scene, &particles(&[Vec3::ZERO], &[0.0]));
+    let grid = Grid { capacity: counts.len() as u32, ..Grid::default() };
+    buffers.create(gpu, "grid", size_of::<Grid>() as u64, Usage::Uniform);
     buffers.create(gpu, "voxel_count", counts.len() as u64 * 4, Usage::Storage);
-    buffers.create(gpu, "voxel_sum", 4, Usage::Storage);
+    buffers.write(gpu, "grid", 0, &[grid]).unwrap();
     buffers.write(gpu, "voxel_count", 0, counts).unwrap();
-    buffers.write(gpu, "voxel_sum", 0, &[counts.len() as u32]).unwrap();
     let renderer = Renderer::new(gpu, scene, &stage::variant(scene), &mut buffers, View::Pool).unwrap();
     let pixels = stage::frame(gpu, &renderer, &buffers, 1, &[]);
     let caption = Caption { voxels: Some(counts.len() as u32), ..Caption::default() };

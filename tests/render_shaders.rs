@@ -23,7 +23,10 @@ fn variants() -> Vec<Variant> {
                     .constant("SHADOW_TEXELS", 1024)
                     .constant("OCCLUSION_BLOCK", 8)
                     .role("column", format!("render/columns/{}", column.name))
-                    .role("occupancy", "render/stubs/occupancy");
+                    .constant("DIMENSIONS", if two { 2 } else { 3 })
+                    .constant("SLOTS", 4)
+                    .role("addressing", "cells/sliced")
+                    .role("storage", "storage/pool/query");
                 all.push(variant);
             }
         }

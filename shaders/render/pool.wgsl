@@ -2,7 +2,7 @@
 // square; black empty, red one, yellow two, white three, blue four and more, magenta where indices were lost.
 
 #import common/thread
-#import <occupancy>
+#import <storage>
 
 struct PoolPanel {
     rectangle: vec4u, // of the panel in the frame: x, y, width, height

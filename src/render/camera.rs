@@ -69,13 +69,12 @@ impl Sight {
         let size = DVec2::new(f64::from(size[0]), f64::from(size[1]));
         let (low, high) = (scene.domain.min.as_dvec3(), scene.domain.max.as_dvec3());
         let center = (low + high) * 0.5;
-        let local = |p: [f64; 3]| DVec3::from(p) - scene.origin;
         let axis = match scene.dimensions {
             Dimensions::Two => Some(Axis::Z),
             Dimensions::Three => camera.axis,
         };
-        let target = camera.target.map_or(center, local);
-        let eye = camera.eye.map(local).filter(|&eye| eye != target);
+        let target = camera.target.map_or(center, DVec3::from);
+        let eye = camera.eye.map(DVec3::from).filter(|&eye| eye != target);
         let forward = match (axis, eye) {
             (Some(Axis::X), _) => DVec3::NEG_X,
             (Some(Axis::Y), _) => DVec3::NEG_Y,

@@ -23,7 +23,7 @@ use glam::Vec3;
 pub use camera::Sight;
 pub use layout::{Layout, PoolPlace, Rectangle};
 pub use look::POOL_COLORS;
-pub use needs::{BufferNeed, DrawNeed, Needs, TextureNeed, needs};
+pub use needs::{DrawNeed, Needs, TextureNeed, needs};
 pub use overlay::{Caption, Overlay};
 pub use picture::{Picture, PoolPanel};
 pub use style::Style;
@@ -46,14 +46,17 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// `variant` carries the plan's flags and roles; the buffers listed by [`needs()`] are created here.
+    /// `variant` carries the plan's flags and roles; buffers listed by [`needs()`] that
+    /// are not there yet are created.
     pub fn new(gpu: &Gpu, scene: &Scene, variant: &Variant, buffers: &mut Buffers, view: View) -> Result<Self> {
         let layout = Layout::new(scene, view);
         let style = Style::new(scene, view);
         let needs = needs(scene, view);
         check_limits(gpu, &needs)?;
         for need in &needs.buffers {
-            buffers.create(gpu, &need.name, need.bytes, need.usage);
+            if !buffers.contains(&need.name) {
+                buffers.create(gpu, &need.name, need.bytes, need.usage);
+            }
         }
         let variant = style.variant(scene, variant);
         let stages = match layout.scene {

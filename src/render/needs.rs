@@ -5,20 +5,12 @@ use super::layout::Layout;
 use super::light::SHADOW_TEXELS;
 use super::picture::{Picture, PoolPanel};
 use super::style::Style;
-use crate::gpu::buffers::Usage;
+use crate::gpu::BufferPlan;
 use crate::scene::Scene;
 use crate::scene::model::View;
 
 /// Pixels along a side of the blocks that hide spheres; `OCCLUSION_BLOCK` in shaders.
 pub const BLOCK: u32 = 8;
-
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct BufferNeed {
-    pub name: String,
-    pub bytes: u64,
-    pub usage: Usage,
-    pub why: String,
-}
 
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TextureNeed {
@@ -37,21 +29,20 @@ pub struct DrawNeed {
     pub why: String,
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default)]
 pub struct Needs {
-    pub buffers: Vec<BufferNeed>,
+    pub buffers: Vec<BufferPlan>,
     pub textures: Vec<TextureNeed>,
     pub draws: Vec<DrawNeed>,
 }
 
 impl Needs {
-    fn buffer(&mut self, name: &str, bytes: u64, usage: Usage, why: &str) {
-        self.buffers.push(BufferNeed {
-            name: name.to_owned(),
-            bytes,
-            usage,
-            why: why.to_owned(),
-        });
+    fn uniform(&mut self, name: &str, bytes: usize, why: &str) {
+        self.buffers.push(BufferPlan::uniform(name, bytes, why));
+    }
+
+    fn storage(&mut self, name: &str, count: u64, element: u64, why: &str) {
+        self.buffers.push(BufferPlan::storage(name, count, element, why));
     }
 
     fn texture(&mut self, name: &str, size: [u32; 2], why: &str) {
@@ -81,33 +72,31 @@ pub fn needs(scene: &Scene, view: View) -> Needs {
     let [width, height] = scene.render.size;
     let mut needs = Needs::default();
     let pixels = u64::from(width) * u64::from(height);
-    needs.buffer("frame_pixels", pixels * 4, Usage::Storage, "the finished picture, sRGB bytes");
+    needs.storage("frame_pixels", pixels, 4, "the finished picture, sRGB bytes");
     if let Some(place) = layout.scene {
         scene_needs(&mut needs, scene, &style, [place.width, place.height]);
     }
     if layout.pool.is_some() {
-        let bytes = size_of::<PoolPanel>() as u64;
-        needs.buffer("pool_panel", bytes, Usage::Uniform, "place and colors of the heatmap");
+        needs.uniform("pool_panel", size_of::<PoolPanel>(), "place and colors of the heatmap");
         needs.draw(true, "paint_pool", "render/pool", "the index pool, one texel a voxel");
     }
     needs
 }
 
 fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) {
-    let picture = size_of::<Picture>() as u64;
-    needs.buffer("picture", picture, Usage::Uniform, "camera, light, range of the colors");
-    needs.buffer("color_map", 256 * 4, Usage::Storage, "the color map, 256 entries");
-    let splats = u64::from(scene.capacity.max(1)) * 4;
-    needs.buffer("splat", splats, Usage::Storage, "color and visibility of each particle");
+    needs.uniform("picture", size_of::<Picture>(), "camera, light, range of the colors");
+    needs.storage("color_map", 256, 4, "the color map, 256 entries");
+    let capacity = u64::from(scene.capacity.max(1));
+    needs.storage("splat", capacity, 4, "color and visibility of each particle");
     if style.colliders {
-        let vertices = (colliders::triangles(scene).len() as u64).max(1) * 16;
-        needs.buffer("collider_vertex", vertices, Usage::Storage, "colliders as triangles");
-        let looks = scene.colliders.len() as u64 * 32;
-        needs.buffer("collider_look", looks, Usage::Storage, "where colliders are and their color");
+        let vertices = (colliders::triangles(scene).len() as u64).max(1);
+        needs.storage("collider_vertex", vertices, 16, "colliders as triangles");
+        let colliders = scene.colliders.len() as u64;
+        needs.storage("collider_look", colliders, 32, "where colliders are and their color");
     }
     if style.occlusion {
         let blocks = size.map(|side| u64::from(side.div_ceil(BLOCK)));
-        needs.buffer("block_depth", blocks[0] * blocks[1] * 4, Usage::Storage, "depth that blocks of pixels hide");
+        needs.storage("block_depth", blocks[0] * blocks[1], 4, "depth that blocks of pixels hide");
     }
     let samples = size.map(|side| side * scene.render.antialias);
     needs.texture("scene_color", samples, "the scene, several samples a pixel");

@@ -53,14 +53,39 @@ pub const COLUMNS: &[Column] = &[
     vector("position", "m", "center, in the scene's coordinates"),
     vector("velocity", "m/s", "velocity"),
     column("speed", "m/s", "magnitude of the velocity", Source::State),
-    column("x", "m", "position along x, in the scene's coordinates", Source::State),
-    column("y", "m", "position along y, in the scene's coordinates", Source::State),
-    column("z", "m", "position along z, in the scene's coordinates", Source::State),
+    column(
+        "x",
+        "m",
+        "position along x, in the scene's coordinates",
+        Source::State,
+    ),
+    column(
+        "y",
+        "m",
+        "position along y, in the scene's coordinates",
+        Source::State,
+    ),
+    column(
+        "z",
+        "m",
+        "position along z, in the scene's coordinates",
+        Source::State,
+    ),
     column("velocity_x", "m/s", "velocity along x", Source::State),
     column("velocity_y", "m/s", "velocity along y", Source::State),
     column("velocity_z", "m/s", "velocity along z", Source::State),
-    column("id", "", "the particle's number, stable during the run", Source::State),
-    column("contacts", "", "grains and walls that touch the grain", Source::Measured),
+    column(
+        "id",
+        "",
+        "the particle's number, stable during the run",
+        Source::State,
+    ),
+    column(
+        "contacts",
+        "",
+        "grains and walls that touch the grain",
+        Source::Measured,
+    ),
     column(
         "density",
         "kg/m³",
@@ -73,7 +98,12 @@ pub const COLUMNS: &[Column] = &[
         "sum of the normal contact forces over the grain's surface",
         Source::Measured,
     ),
-    column("slice", "", "voxel coordinate along the slicing axis", Source::Search),
+    column(
+        "slice",
+        "",
+        "voxel coordinate along the slicing axis",
+        Source::Search,
+    ),
 ];
 
 /// The column with this name.

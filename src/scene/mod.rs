@@ -2,10 +2,31 @@
 //!
 //! Everything in a [`Scene`] is finite, in SI units, and relative to [`Scene::origin`], which was subtracted in f64.
 
+mod bodies;
+pub mod check;
 pub mod color_maps;
+mod coloring;
 pub mod column;
+mod contact;
+mod emission;
+mod fit;
+mod frame;
+mod json;
+pub mod library;
+pub mod load;
 pub mod mesh;
 pub mod model;
+mod motion;
+mod obstacles;
+pub mod particle_file;
+mod ply;
+mod schedule;
+pub mod set;
+pub mod shapes;
+pub mod signed_distance;
+mod text;
+mod time;
+mod validate;
 
 use glam::{DVec3, Vec3};
 use model::{Addressing, Axis, Dashpot, Integrator, Render, SceneFile, Storage, Wall};
@@ -33,6 +54,7 @@ pub struct Scene {
     pub schedule: Vec<Scheduled>,
     pub neighbors: Neighbors,
     pub time: Time,
+    /// The camera's points are in local coordinates too.
     pub render: Render,
     pub color: Coloring,
     /// What was decided or dropped on the way (overlaps removed, say); told to the user.
@@ -131,9 +153,18 @@ pub struct Collider {
 #[derive(Debug, Clone)]
 pub enum ColliderShape {
     /// Solid where `dot(normal, x - point) < 0`; the normal has length one.
-    Plane { point: Vec3, normal: Vec3 },
-    Box { min: Vec3, max: Vec3 },
-    Sphere { center: Vec3, radius: f32 },
+    Plane {
+        point: Vec3,
+        normal: Vec3,
+    },
+    Box {
+        min: Vec3,
+        max: Vec3,
+    },
+    Sphere {
+        center: Vec3,
+        radius: f32,
+    },
     Mesh(mesh::Mesh),
 }
 

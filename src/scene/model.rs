@@ -429,7 +429,7 @@ pub struct Switch {
 #[serde(deny_unknown_fields)]
 pub struct Move {
     pub collider: String,
-    /// Metres, from where it is.
+    /// Metres, from where it is and on top of what its path goes on to do.
     pub by: Coordinates,
     /// Seconds that the move takes.
     #[schemars(range(min = 1e-9, max = 1e9))]
@@ -437,24 +437,27 @@ pub struct Move {
 }
 
 /// How neighbors are found: which voxel a point falls in, and how a voxel keeps its particles.
-#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
 pub struct Neighbors {
-    #[serde(default)]
     pub addressing: Addressing,
-    #[serde(default)]
     pub storage: Storage,
     /// The axis across which `sliced` cuts; y when left out, as in Harada 2007.
-    #[serde(default)]
     pub slicing_axis: Axis,
     /// Indices that a voxel of a `pool` can hold.
-    #[serde(default = "four")]
     #[schemars(range(min = 1, max = 64))]
     pub slots: u32,
 }
 
-fn four() -> u32 {
-    4
+impl Default for Neighbors {
+    fn default() -> Self {
+        Self {
+            addressing: Addressing::default(),
+            storage: Storage::default(),
+            slicing_axis: Axis::default(),
+            slots: 4,
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

@@ -106,12 +106,14 @@ pub fn buffers(gpu: &Gpu, scene: &Scene, particles: &Particles) -> Buffers {
     buffers
 }
 
-/// The plan's choices for tests: counts from `voxel_count`.
+/// The plan's choices for a uniform grid with a pool.
 pub fn variant(scene: &Scene) -> Variant {
     let mut variant = Variant::default();
     variant
         .flag("two_dimensional", scene.dimensions == Dimensions::Two)
-        .role("occupancy", "render/stubs/occupancy");
+        .constant("SLOTS", scene.neighbors.slots)
+        .role("addressing", "cells/uniform")
+        .role("storage", "storage/pool/query");
     variant
 }
 

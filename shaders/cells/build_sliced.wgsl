@@ -1,0 +1,74 @@
+// Builds the slices (Harada 2007, Section 5): bounding boxes by atomic minimum and maximum, then first indices by a
+// prefix sum over the slices' voxel counts (Eq. 3).
+#import common/vector
+#import common/thread
+#import common/parameters
+#import common/workgroup_scan
+#import cells/grid
+
+const NOTHING_BELOW: i32 = 0x7fffffff;
+const NOTHING_ABOVE: i32 = -0x7fffffff;
+
+var<storage, read> next_position: array<Packed>;
+// Four values a slice: lowest u, lowest w, highest u, highest w.
+var<storage, read_write> slice_bounds: array<atomic<i32>>;
+var<storage, read_write> slice_record: array<vec4i>;
+
+// The look before the atomic spares nearly all of them: a box stops growing after its first few particles.
+fn lower_to(index: u32, value: i32) {
+    if value < atomicLoad(&slice_bounds[index]) {
+        atomicMin(&slice_bounds[index], value);
+    }
+}
+
+fn raise_to(index: u32, value: i32) {
+    if value > atomicLoad(&slice_bounds[index]) {
+        atomicMax(&slice_bounds[index], value);
+    }
+}
+
+@compute @workgroup_size(GROUP_SIZE)
+fn bound_slices(thread: Thread) {
+    let i = item_index(thread);
+    if i >= parameters.particle_count {
+        return;
+    }
+    let voxel = voxel_of(unpack(next_position[i]));
+    let bounds = 4u * u32(voxel.y);
+    lower_to(bounds, voxel.x);
+    lower_to(bounds + 1u, third(voxel));
+    raise_to(bounds + 2u, voxel.x);
+    raise_to(bounds + 3u, third(voxel));
+}
+
+// One workgroup. Leaves the bounds empty for the next search.
+@compute @workgroup_size(SCAN_THREADS)
+fn build_slices(@builtin(local_invocation_index) thread: u32) {
+    let slices = u32(grid.size.y);
+    var first_index = 0u;
+    for (var base = 0u; base < slices; base += SCAN_THREADS) {
+        let s = base + thread;
+        var lower = vec2i(0);
+        var size = vec2i(0);
+        if s < slices {
+            let low = vec2i(atomicLoad(&slice_bounds[4u * s]), atomicLoad(&slice_bounds[4u * s + 1u]));
+            let high = vec2i(atomicLoad(&slice_bounds[4u * s + 2u]), atomicLoad(&slice_bounds[4u * s + 3u]));
+            if low.x <= high.x {
+                lower = low;
+                size = high - low + vec2i(1); // Eq. 1 and 2
+            }
+            atomicStore(&slice_bounds[4u * s], NOTHING_BELOW);
+            atomicStore(&slice_bounds[4u * s + 1u], NOTHING_BELOW);
+            atomicStore(&slice_bounds[4u * s + 2u], NOTHING_ABOVE);
+            atomicStore(&slice_bounds[4u * s + 3u], NOTHING_ABOVE);
+        }
+        let sum = workgroup_scan(thread, u32(size.x * size.y));
+        if s < slices {
+            slice_record[s] = vec4i(i32(first_index + sum.before), lower, size.x);
+        }
+        first_index += sum.total;
+    }
+    if thread == 0u {
+        slice_record[slices] = vec4i(i32(first_index), 0, 0, 0);
+    }
+}

@@ -1,0 +1,34 @@
+// Addressing `sliced`: each slice has voxels in the bounding box of its particles only (Harada 2007, Eq. 1 to 5).
+#import common/vector
+#import cells/grid
+
+// One record a slice: index of its first voxel p, lower corner of its box along u and w, voxels along u.
+// One more stands at the end; its p is the number of voxels in all.
+var<storage, read> slice_record: array<vec4i>;
+
+fn voxel_total() -> u32 {
+    return u32(slice_record[grid.size.y].x);
+}
+
+// Eq. 5, for a voxel inside its slice's box.
+fn address(v: Coordinate) -> u32 {
+    let slice = slice_record[v.y];
+    return u32(slice.x + (v.x - slice.y) + (third(v) - slice.z) * slice.w);
+}
+
+// Addresses [first, last) of the k-th row of up to three voxels around `home`; they stand side by side.
+fn row_span(home: Coordinate, k: u32) -> vec2u {
+    let row = home + row_offset(k);
+    if row.y < 0 || row.y >= grid.size.y {
+        return vec2u(0u);
+    }
+    let slice = slice_record[row.y];
+    let end_of_slice = slice_record[row.y + 1].x;
+    let base = slice.x + (third(row) - slice.z) * slice.w;
+    let begin = max(home.x - 1 - slice.y, 0);
+    let end = min(home.x + 2 - slice.y, slice.w);
+    if third(row) < slice.z || base >= end_of_slice || begin >= end {
+        return vec2u(0u);
+    }
+    return vec2u(u32(base + begin), u32(base + end));
+}

@@ -1,0 +1,137 @@
+// Obstacles as contacts with the same law as between grains.
+#import common/vector
+#import common/parameters
+#import physics/dem/law
+#if moving_colliders
+#import physics/clock
+#end
+
+struct Collider {
+    kind: u32, // 0: plane, 1: box, 2: sphere, 3: mesh
+    field_offset: u32, // mesh: its first value in distance_field
+    radius: f32, // sphere, m
+    cell: f32, // mesh: distance of the field's nodes, m
+    a: vec4f, // plane: a point; box and mesh: lower corner; sphere: center (m)
+    b: vec4f, // plane: normal; box: upper corner (m); mesh: nodes along x, y, z
+    offset: vec4f, // where it is now, at the first step of the segment, m
+    velocity: vec4f, // m/s
+}
+
+const PLANE: u32 = 0u;
+const BOX: u32 = 1u;
+const SPHERE: u32 = 2u;
+const MESH: u32 = 3u;
+
+var<storage, read> colliders: array<Collider>;
+#if mesh_colliders
+// Signed distances at the nodes of each mesh's field, m; x runs fastest, then y, then z.
+var<storage, read> distance_field: array<f32>;
+#end
+
+struct Nearest {
+    distance: f32, // to the surface, negative inside, m
+    outwards: Vector,
+}
+
+fn nearest_on_box(x: Vector, lower: Vector, upper: Vector) -> Nearest {
+    let center = 0.5 * (lower + upper);
+    let local = x - center;
+    let beyond = abs(local) - 0.5 * (upper - lower);
+    let side = select(Vector(-1.0), Vector(1.0), local >= Vector(0.0));
+    let outside = max(beyond, Vector(0.0));
+    let distance = length(outside);
+    if distance > 0.0 {
+        return Nearest(distance, side * outside / distance);
+    }
+    // Inside: the nearest face.
+    var face = 0u;
+    for (var axis = 1u; axis < DIMENSIONS; axis++) {
+        if beyond[axis] > beyond[face] {
+            face = axis;
+        }
+    }
+    var outwards = Vector(0.0);
+    outwards[face] = side[face];
+    return Nearest(beyond[face], outwards);
+}
+
+fn nearest_on_sphere(x: Vector, center: Vector, radius: f32) -> Nearest {
+    let local = x - center;
+    let distance = length(local);
+    var outwards = Vector(0.0);
+    outwards.y = 1.0;
+    if distance > 0.0 {
+        outwards = local / distance;
+    }
+    return Nearest(distance - radius, outwards);
+}
+
+#if mesh_colliders
+fn field_value(collider: Collider, node: vec3u) -> f32 {
+    let size = vec3u(collider.b.xyz);
+    return distance_field[collider.field_offset + node.x + size.x * (node.y + size.y * node.z)];
+}
+
+// Trilinear interpolation of the field, and its gradient.
+fn nearest_on_mesh(x: Vector, collider: Collider) -> Nearest {
+    let scaled = (x - collider.a.xyz) / collider.cell;
+    let last = collider.b.xyz - 1.0;
+    if any(scaled < vec3f(0.0)) || any(scaled >= last) {
+        return Nearest(contact.diameter, vec3f(0.0, 1.0, 0.0));
+    }
+    let node = vec3u(scaled);
+    let t = scaled - floor(scaled);
+    let x00 = vec2f(field_value(collider, node), field_value(collider, node + vec3u(1u, 0u, 0u)));
+    let x10 = vec2f(field_value(collider, node + vec3u(0u, 1u, 0u)), field_value(collider, node + vec3u(1u, 1u, 0u)));
+    let x01 = vec2f(field_value(collider, node + vec3u(0u, 0u, 1u)), field_value(collider, node + vec3u(1u, 0u, 1u)));
+    let x11 = vec2f(field_value(collider, node + vec3u(0u, 1u, 1u)), field_value(collider, node + vec3u(1u, 1u, 1u)));
+    let y0 = mix(x00, x10, t.y);
+    let y1 = mix(x01, x11, t.y);
+    let z = mix(y0, y1, t.z);
+    let slope = vec3f(
+        z.y - z.x,
+        dot(mix(x10 - x00, x11 - x01, t.z), vec2f(1.0 - t.x, t.x)),
+        dot(y1 - y0, vec2f(1.0 - t.x, t.x)),
+    );
+    let steepness = length(slope);
+    if steepness == 0.0 {
+        return Nearest(contact.diameter, vec3f(0.0, 1.0, 0.0));
+    }
+    return Nearest(mix(z.x, z.y, t.x), slope / steepness);
+}
+#end
+
+fn nearest_on(collider: Collider, x: Vector) -> Nearest {
+    switch collider.kind {
+        case PLANE: {
+            return Nearest(dot(x - first(collider.a), first(collider.b)), first(collider.b));
+        }
+        case BOX: {
+            return nearest_on_box(x, first(collider.a), first(collider.b));
+        }
+#if mesh_colliders
+        case MESH: {
+            return nearest_on_mesh(x, collider);
+        }
+#end
+        default: {
+            return nearest_on_sphere(x, first(collider.a), collider.radius);
+        }
+    }
+}
+
+fn add_colliders(sum: ptr<function, ContactSum>, x: Vector, v: Vector) {
+    let radius = 0.5 * contact.diameter;
+    for (var c = 0u; c < arrayLength(&colliders); c++) {
+        let collider = colliders[c];
+        var offset = first(collider.offset);
+#if moving_colliders
+        offset += first(collider.velocity) * (f32(clock.step_in_segment) * parameters.time_step);
+#end
+        let nearest = nearest_on(collider, x - offset);
+        if nearest.distance < radius {
+            let approach = first(collider.velocity) - v;
+            add_contact(sum, -nearest.outwards, radius - nearest.distance, approach, contact.wall_damping);
+        }
+    }
+}

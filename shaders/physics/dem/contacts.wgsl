@@ -1,0 +1,58 @@
+// All contacts of one grain: with grains, walls and obstacles. Knows nothing of the grid behind `<storage>`.
+#import common/vector
+#import common/parameters
+#import common/reach
+#import physics/dem/law
+#import <storage>
+#if contact_walls
+#import physics/dem/walls
+#end
+#if colliders
+#import physics/dem/colliders
+#end
+
+var<storage, read> position: array<Packed>;
+var<storage, read> velocity: array<Packed>;
+
+fn sum_contacts(i: u32) -> ContactSum {
+    var sum = ContactSum();
+    let x = unpack(position[i]);
+    let v = unpack(velocity[i]);
+    let home = voxel_of(x);
+    for (var k = 0u; k < RANGES; k++) {
+        let range = candidate_range(home, k);
+        for (var slot = range.x; slot < range.y; slot++) {
+            let j = candidate(slot);
+            let separation = unpack(position[j]) - x;
+            if within(separation, contact.diameter) && j != i {
+                let distance = length(separation);
+                var normal = separation / distance;
+                if distance == 0.0 {
+                    // Coincident grains part along x, the one that stands first to the left.
+                    normal = Vector(0.0);
+                    normal.x = select(-1.0, 1.0, i < j);
+                }
+                add_contact(&sum, normal, contact.diameter - distance, unpack(velocity[j]) - v, contact.damping);
+#if attraction
+                sum.force += contact.attraction * separation;
+#end
+            }
+        }
+    }
+#if contact_walls
+    add_walls(&sum, x, v);
+#end
+#if colliders
+    add_colliders(&sum, x, v);
+#end
+    return sum;
+}
+
+// m/s²
+fn acceleration_of(sum: ContactSum, v: Vector) -> Vector {
+    var acceleration = sum.force * contact.inverse_mass + first(parameters.gravity);
+#if global_damping
+    acceleration -= contact.global_damping * v;
+#end
+    return acceleration;
+}

@@ -1,0 +1,51 @@
+// The contact law of grains: linear spring and dashpot (Harada 2007, Eq. 9 and 10), with shear and attraction
+// (Green 2012). Terms that a scene does not have are not in the shader.
+#import common/vector
+
+struct Contact {
+    spring: f32, // N/m
+    damping: f32, // between grains, N·s/m
+    wall_damping: f32, // between a grain and a wall, N·s/m
+    shear: f32, // N·s/m
+    attraction: f32, // N/m
+    global_damping: f32, // 1/s
+    diameter: f32, // m
+    inverse_mass: f32, // 1/kg
+}
+
+var<uniform> contact: Contact;
+
+// What the contacts of one grain add up to.
+struct ContactSum {
+    force: Vector, // N
+#if measuring
+    contacts: u32,
+    normal_force: f32, // sum of magnitudes, N
+    overlap: f32, // the largest, m
+#end
+}
+
+// Adds one contact of grain i. `normal` points from i to what it touches, `approach` is the other's velocity less i's.
+fn add_contact(
+    sum: ptr<function, ContactSum>,
+    normal: Vector,
+    overlap: f32,
+    approach: Vector,
+    damping: f32,
+) {
+    let spring_force = contact.spring * overlap;
+    let normal_speed = dot(approach, normal);
+#if normal_dashpot
+    (*sum).force += (damping * normal_speed - spring_force) * normal;
+#else
+    (*sum).force += damping * approach - spring_force * normal;
+#end
+#if shear
+    (*sum).force += contact.shear * (approach - normal_speed * normal);
+#end
+#if measuring
+    (*sum).contacts += 1u;
+    (*sum).normal_force += abs(spring_force - damping * normal_speed);
+    (*sum).overlap = max((*sum).overlap, overlap);
+#end
+}

@@ -1,0 +1,79 @@
+// At the end of a frame: columns that contacts give, and figures over all grains.
+#flag measuring
+#import common/thread
+#import physics/dem/contacts
+
+#if column_contacts
+var<storage, read_write> contacts: array<u32>;
+#end
+#if column_pressure
+var<storage, read_write> pressure: array<f32>; // Pa
+#end
+#if column_density
+var<storage, read_write> density: array<f32>; // kg/m³
+#end
+
+struct Measure {
+    mass: f32, // of a grain, kg
+    surface: f32, // of a grain, m² (its rim times one metre in 2D)
+    block_volume: f32, // of the voxels that a search visits, m³ (times one metre in 2D)
+    reference: vec4f, // where the potential energy is zero, m
+}
+
+var<uniform> measure: Measure;
+
+#if statistics
+#import physics/sums
+var<storage, read_write> partial_sums: array<Sums>;
+var<workgroup> group_sums: array<Sums, GROUP_SIZE>;
+#end
+
+@compute @workgroup_size(GROUP_SIZE)
+fn measure_grains(thread: Thread) {
+    let i = item_index(thread);
+    let alive = i < parameters.particle_count;
+    var sum = ContactSum();
+    if alive {
+        sum = sum_contacts(i);
+#if column_contacts
+        contacts[i] = sum.contacts;
+#end
+#if column_pressure
+        pressure[i] = sum.normal_force / measure.surface;
+#end
+#if column_density
+        let home = voxel_of(unpack(position[i]));
+        var around = 0u;
+        for (var k = 0u; k < RANGES; k++) {
+            let range = candidate_range(home, k);
+            around += range.y - range.x;
+        }
+        density[i] = f32(around) * measure.mass / measure.block_volume;
+#end
+    }
+#if statistics
+    var sums = Sums();
+    if alive {
+        let v = unpack(velocity[i]);
+        sums.kinetic_energy = 0.5 * measure.mass * dot(v, v);
+        sums.potential_energy =
+            -measure.mass * dot(first(parameters.gravity), unpack(position[i]) - first(measure.reference));
+        sums.max_speed = length(v);
+        sums.max_overlap = sum.overlap;
+        sums.contacts = sum.contacts;
+    }
+    // A fixed tree, so that two runs add in the same order.
+    group_sums[thread.local_index] = sums;
+    workgroupBarrier();
+    for (var reach = GROUP_SIZE / 2u; reach > 0u; reach /= 2u) {
+        if thread.local_index < reach {
+            group_sums[thread.local_index] =
+                add_sums(group_sums[thread.local_index], group_sums[thread.local_index + reach]);
+        }
+        workgroupBarrier();
+    }
+    if thread.local_index == 0u {
+        partial_sums[group_index(thread)] = group_sums[0];
+    }
+#end
+}

@@ -1,0 +1,19 @@
+// Figures over all particles.
+
+struct Sums {
+    kinetic_energy: f32, // J
+    potential_energy: f32, // J
+    max_speed: f32, // m/s
+    max_overlap: f32, // m
+    contacts: u32, // as seen by each particle: a contact of two counts twice
+}
+
+fn add_sums(a: Sums, b: Sums) -> Sums {
+    return Sums(
+        a.kinetic_energy + b.kinetic_energy,
+        a.potential_energy + b.potential_energy,
+        max(a.max_speed, b.max_speed),
+        max(a.max_overlap, b.max_overlap),
+        a.contacts + b.contacts,
+    );
+}

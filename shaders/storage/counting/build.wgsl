@@ -1,0 +1,66 @@
+// Builds storage `counting`: count, (prefix sum: scan.wgsl,) scatter, then a canonical order inside each voxel, so
+// that two runs sum in the same order whatever order the atomics had.
+#import common/thread
+#import common/parameters
+#import <addressing>
+
+var<storage, read_write> voxel_count: array<atomic<u32>>;
+var<storage, read> voxel_start: array<u32>;
+
+var<storage, read> next_position: array<Packed>;
+var<storage, read> next_velocity: array<Packed>;
+var<storage, read> next_id: array<u32>;
+#if accelerations
+var<storage, read> next_acceleration: array<Packed>;
+var<storage, read_write> acceleration: array<Packed>;
+#end
+var<storage, read_write> position: array<Packed>;
+var<storage, read_write> velocity: array<Packed>;
+var<storage, read_write> id: array<u32>;
+
+// Voxel of each particle, and how many of the voxel's particles came before it to the counter.
+var<storage, read_write> particle_voxel: array<u32>;
+var<storage, read_write> arrival: array<u32>;
+// Particles in voxel order, inside a voxel in order of arrival.
+var<storage, read_write> arrived: array<u32>;
+
+@compute @workgroup_size(GROUP_SIZE)
+fn count_voxels(thread: Thread) {
+    let i = item_index(thread);
+    if i >= parameters.particle_count {
+        return;
+    }
+    let voxel = address(voxel_of(unpack(next_position[i])));
+    particle_voxel[i] = voxel;
+    arrival[i] = atomicAdd(&voxel_count[voxel], 1u);
+}
+
+@compute @workgroup_size(GROUP_SIZE)
+fn scatter_particles(thread: Thread) {
+    let i = item_index(thread);
+    if i >= parameters.particle_count {
+        return;
+    }
+    arrived[voxel_start[particle_voxel[i]] + arrival[i]] = i;
+}
+
+@compute @workgroup_size(GROUP_SIZE)
+fn reorder_particles(thread: Thread) {
+    let i = item_index(thread);
+    if i >= parameters.particle_count {
+        return;
+    }
+    let voxel = particle_voxel[i];
+    let begin = voxel_start[voxel];
+    let end = voxel_start[voxel + 1u];
+    var slot = begin;
+    for (var other = begin; other < end; other++) {
+        slot += u32(arrived[other] < i);
+    }
+    position[slot] = next_position[i];
+    velocity[slot] = next_velocity[i];
+    id[slot] = next_id[i];
+#if accelerations
+    acceleration[slot] = next_acceleration[i];
+#end
+}

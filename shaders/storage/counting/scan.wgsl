@@ -1,0 +1,76 @@
+// Prefix sum of `voxel_count` into `voxel_start` in three passes: sums of blocks, prefix sum of those, blocks again.
+// No pass waits for another workgroup: WebGPU promises no forward progress between workgroups.
+#import common/thread
+#import common/workgroup_scan
+#import <addressing>
+
+const ITEMS: u32 = 8u; // of one thread
+const SCAN_BLOCK: u32 = SCAN_THREADS * ITEMS;
+
+var<storage, read_write> voxel_count: array<u32>;
+var<storage, read_write> voxel_start: array<u32>;
+var<storage, read_write> block_sum: array<u32>;
+
+// One entry more than voxels: its count is zero, and its start is the particle count.
+fn scan_items() -> u32 {
+    return voxel_total() + 1u;
+}
+
+@compute @workgroup_size(SCAN_THREADS)
+fn sum_blocks(thread: Thread) {
+    let block = group_index(thread);
+    let items = scan_items();
+    if block * SCAN_BLOCK >= items {
+        return;
+    }
+    let begin = block * SCAN_BLOCK + thread.local_index * ITEMS;
+    var sum = 0u;
+    for (var item = begin; item < min(begin + ITEMS, items); item++) {
+        sum += voxel_count[item];
+    }
+    let scanned = workgroup_scan(thread.local_index, sum);
+    if thread.local_index == 0u {
+        block_sum[block] = scanned.total;
+    }
+}
+
+// One workgroup.
+@compute @workgroup_size(SCAN_THREADS)
+fn scan_blocks(@builtin(local_invocation_index) thread: u32) {
+    let blocks = (scan_items() + SCAN_BLOCK - 1u) / SCAN_BLOCK;
+    var before = 0u;
+    for (var base = 0u; base < blocks; base += SCAN_THREADS) {
+        let block = base + thread;
+        var sum = 0u;
+        if block < blocks {
+            sum = block_sum[block];
+        }
+        let scanned = workgroup_scan(thread, sum);
+        if block < blocks {
+            block_sum[block] = before + scanned.before;
+        }
+        before += scanned.total;
+    }
+}
+
+// Leaves the counts zero for the next search.
+@compute @workgroup_size(SCAN_THREADS)
+fn start_voxels(thread: Thread) {
+    let block = group_index(thread);
+    let items = scan_items();
+    if block * SCAN_BLOCK >= items {
+        return;
+    }
+    let begin = block * SCAN_BLOCK + thread.local_index * ITEMS;
+    let end = min(begin + ITEMS, items);
+    var sum = 0u;
+    for (var item = begin; item < end; item++) {
+        sum += voxel_count[item];
+    }
+    var start = block_sum[block] + workgroup_scan(thread.local_index, sum).before;
+    for (var item = begin; item < end; item++) {
+        voxel_start[item] = start;
+        start += voxel_count[item];
+        voxel_count[item] = 0u;
+    }
+}

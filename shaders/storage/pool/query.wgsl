@@ -1,0 +1,30 @@
+// Storage `pool`: SLOTS indices a voxel (Harada 2007's index pool; Green 2012's gridCounters and gridCells).
+#import <addressing>
+
+// Particles that fell into each voxel; more than SLOTS is overflow.
+var<storage, read> voxel_count: array<u32>;
+// SLOTS particle indices a voxel, ascending.
+var<storage, read> index_pool: array<u32>;
+
+const RANGES: u32 = BLOCK;
+
+// Slots [first, last) of the k-th range of candidates around a voxel.
+fn candidate_range(home: Coordinate, k: u32) -> vec2u {
+    let span = row_span(home, k / 3u);
+    let voxel = span.x + k % 3u;
+    if voxel >= span.y {
+        return vec2u(0u);
+    }
+    let slot = voxel * SLOTS;
+    return vec2u(slot, slot + min(voxel_count[voxel], SLOTS));
+}
+
+// The particle in a slot.
+fn candidate(slot: u32) -> u32 {
+    return index_pool[slot];
+}
+
+// Particles in a voxel, those without a slot included.
+fn occupancy(voxel: u32) -> u32 {
+    return voxel_count[voxel];
+}

@@ -1,0 +1,123 @@
+//! Obstacles as the device sees them: shapes, motion, and distance fields of meshes.
+
+use glam::Vec3;
+
+use super::layout::Collider;
+use crate::scene::signed_distance::SignedDistance;
+use crate::scene::{self, ColliderShape, Scene};
+
+/// Nodes that all distance fields together may have; more would be coarsened. 16 Mi values are 64 MiB.
+const MOST_NODES: f64 = (1u64 << 24) as f64;
+
+/// Every obstacle of a scene.
+#[derive(Debug, Clone, Default)]
+pub struct Obstacles {
+    /// As they stand at time zero.
+    pub colliders: Vec<Collider>,
+    /// Signed distances of all meshes, one field after the other, metres.
+    pub field: Vec<f32>,
+    /// Whether one of them ever moves.
+    pub moving: bool,
+    pub notes: Vec<String>,
+}
+
+impl Obstacles {
+    pub fn new(scene: &Scene) -> Self {
+        let mut all = Self {
+            moving: scene.colliders.iter().any(|collider| !collider.path.is_empty()),
+            ..Self::default()
+        };
+        for collider in &scene.colliders {
+            let described = all.describe(scene, collider);
+            all.colliders.push(described);
+        }
+        all
+    }
+
+    fn describe(&mut self, scene: &Scene, collider: &scene::Collider) -> Collider {
+        let packed = |v: Vec3| [v.x, v.y, v.z, 0.0];
+        let offset = packed(offset_at(&collider.path, 0.0));
+        match &collider.shape {
+            ColliderShape::Plane { point, normal } => Collider {
+                kind: 0,
+                a: packed(*point),
+                b: packed(*normal),
+                offset,
+                ..Default::default()
+            },
+            ColliderShape::Box { min, max } => Collider {
+                kind: 1,
+                a: packed(*min),
+                b: packed(*max),
+                offset,
+                ..Default::default()
+            },
+            ColliderShape::Sphere { center, radius } => Collider {
+                kind: 2,
+                radius: *radius,
+                a: packed(*center),
+                offset,
+                ..Default::default()
+            },
+            ColliderShape::Mesh(mesh) => {
+                let grain = scene.grains.radius;
+                let (min, max) = mesh.bounds();
+                let extent = max - min + 4.0 * grain;
+                let smallest = (extent.x * extent.y * extent.z / MOST_NODES).cbrt();
+                let cell = grain.max(smallest);
+                if cell > grain {
+                    self.notes.push(format!(
+                        "collider `{}`: its distance field has nodes every {cell:.3e} m, wider than a grain's radius, \
+                         to stay below {MOST_NODES} values",
+                        collider.name
+                    ));
+                }
+                let field = SignedDistance::new(mesh, cell, 2.0 * grain + 2.0 * cell);
+                let described = Collider {
+                    kind: 3,
+                    field_offset: self.field.len() as u32,
+                    cell: field.cell as f32,
+                    a: packed(field.min.as_vec3()),
+                    b: [field.size[0] as f32, field.size[1] as f32, field.size[2] as f32, 0.0],
+                    offset,
+                    ..Default::default()
+                };
+                self.field.extend_from_slice(&field.values);
+                described
+            }
+        }
+    }
+}
+
+/// Offset of a path at a time, seconds and metres; piecewise linear, at rest before its first and after its last point.
+pub fn offset_at(path: &[(f64, Vec3)], time: f64) -> Vec3 {
+    let Some(&(first_time, first)) = path.first() else {
+        return Vec3::ZERO;
+    };
+    if time <= first_time {
+        return first;
+    }
+    for pair in path.windows(2) {
+        let ((t0, from), (t1, to)) = (pair[0], pair[1]);
+        if time <= t1 {
+            return from.lerp(to, ((time - t0) / (t1 - t0)) as f32);
+        }
+    }
+    path[path.len() - 1].1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_are_piecewise_linear_and_rest_outside() {
+        let path = [(1.0, Vec3::ZERO), (2.0, Vec3::X), (2.0, Vec3::Y), (4.0, Vec3::Z)];
+        assert_eq!(offset_at(&[], 3.0), Vec3::ZERO);
+        assert_eq!(offset_at(&path, 0.0), Vec3::ZERO);
+        assert_eq!(offset_at(&path, 1.5), Vec3::X * 0.5);
+        assert_eq!(offset_at(&path, 2.0), Vec3::X);
+        assert_eq!(offset_at(&path, 3.0), Vec3::Y.midpoint(Vec3::Z));
+        assert_eq!(offset_at(&path, 9.0), Vec3::Z);
+    }
+}

@@ -1,0 +1,189 @@
+//! Grains as springs and dashpots (Harada 2007, Eq. 6 to 10; Green 2012).
+
+use glam::Vec3;
+
+use super::Solver;
+use super::collider::Obstacles;
+use super::layout::{ClampWalls, Collider, Contact, ContactWalls, Measure};
+use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
+use crate::neighbors::Grid;
+use crate::scene::column::{Column, Source};
+use crate::scene::model::{Dashpot, Integrator, Wall};
+use crate::scene::{self, Action, Dimensions, Scene};
+
+/// Stands for a wall that is not there, metres; far from every f32 position and safely finite when subtracted.
+const FAR: f32 = 1e30;
+
+/// Bytes of one `Packed` vector of `common/vector.wgsl`.
+pub fn packed_bytes(dimensions: Dimensions) -> u64 {
+    match dimensions {
+        Dimensions::Two => 8,
+        Dimensions::Three => 16,
+    }
+}
+
+/// The contact laws that hold at some time during the run.
+fn contacts(scene: &Scene) -> impl Iterator<Item = scene::Contact> {
+    let later = scene.schedule.iter().filter_map(|scheduled| match &scheduled.action {
+        Action::SetParameters { contact, .. } => Some(*contact),
+        Action::Add(_) => None,
+    });
+    std::iter::once(scene.grains.contact).chain(later)
+}
+
+fn has_wall(scene: &Scene, kind: Wall) -> bool {
+    let axes = scene.dimensions.count();
+    scene.domain.sides[..axes].iter().flatten().any(|&wall| wall == kind)
+}
+
+/// What grains need. `columns` are those that somebody asked for, `statistics` whether figures over all grains are.
+pub fn plan(
+    scene: &Scene,
+    obstacles: &Obstacles,
+    columns: &[Column],
+    statistics: bool,
+    variant: &mut Variant,
+) -> Solver {
+    let contact_walls = has_wall(scene, Wall::Contact);
+    let clamp_walls = has_wall(scene, Wall::Clamp);
+    let ever = |positive: fn(&scene::Contact) -> bool| contacts(scene).any(|c| positive(&c));
+    let measured: Vec<&Column> = columns.iter().filter(|c| c.source == Source::Measured).collect();
+    variant
+        .flag("contact_walls", contact_walls)
+        .flag("clamp_walls", clamp_walls)
+        .flag("colliders", !obstacles.colliders.is_empty())
+        .flag("moving_colliders", obstacles.moving)
+        .flag("mesh_colliders", !obstacles.field.is_empty())
+        .flag("normal_dashpot", scene.grains.contact.dashpot == Dashpot::Normal)
+        .flag("shear", ever(|c| c.shear > 0.0))
+        .flag("attraction", ever(|c| c.attraction > 0.0))
+        .flag("global_damping", ever(|c| c.global_damping > 0.0))
+        .flag("statistics", statistics);
+    for column in &measured {
+        variant.flag(&format!("column_{}", column.name), true);
+    }
+
+    let mut solver = Solver::default();
+    let buffers = &mut solver.buffers;
+    buffers.push(BufferPlan::uniform("contact", Contact::LAYOUT.size, "coefficients of the contact law"));
+    if contact_walls {
+        let why = "sides of the domain that push back";
+        buffers.push(BufferPlan::uniform("contact_walls", ContactWalls::LAYOUT.size, why));
+    }
+    if clamp_walls {
+        let why = "sides of the domain that clamp (Green 2012)";
+        buffers.push(BufferPlan::uniform("clamp_walls", ClampWalls::LAYOUT.size, why));
+    }
+    if !obstacles.colliders.is_empty() {
+        let count = obstacles.colliders.len() as u64;
+        buffers.push(BufferPlan::storage("colliders", count, Collider::LAYOUT.size as u64, "obstacles"));
+    }
+    if !obstacles.field.is_empty() {
+        let why = "signed distances around mesh obstacles";
+        buffers.push(BufferPlan::storage("distance_field", obstacles.field.len() as u64, 4, why));
+    }
+
+    let pass = |file: &str, entry, why: &str| {
+        PassPlan::new(&format!("physics/dem/{file}"), entry, Items::Particles, why)
+    };
+    let clock = PassPlan::new("physics/advance_clock", "advance_clock", Items::Fixed(1), "counts the step");
+    match scene.time.integrator {
+        Integrator::SymplecticEuler => {
+            let why = "contact forces and symplectic Euler (Rojas 2013, Eq. 7)";
+            solver.before_search.extend([pass("symplectic_euler", "move_grains", why), clock]);
+        }
+        Integrator::VelocityVerlet => {
+            variant.flag("accelerations", true);
+            let bytes = packed_bytes(scene.dimensions);
+            for (name, why) in [
+                ("acceleration", "velocity Verlet needs the last accelerations"),
+                ("next_acceleration", "accelerations, before reordering"),
+            ] {
+                buffers.push(BufferPlan::storage(name, u64::from(scene.capacity), bytes, why));
+            }
+            let drift = pass("drift", "drift", "positions move, velocities are predicted (velocity Verlet)");
+            solver.before_search.extend([drift, clock]);
+            solver.after_search.extend([
+                pass("velocity_verlet", "sum_forces", "contact forces at the new positions"),
+                pass("kick", "kick", "corrects the predicted velocities"),
+            ]);
+        }
+    }
+
+    if statistics || !measured.is_empty() {
+        buffers.push(BufferPlan::uniform("measure", Measure::LAYOUT.size, "what measures are divided by"));
+        for column in &measured {
+            buffers.push(BufferPlan::storage(column.name, u64::from(scene.capacity), 4, column.about));
+        }
+        let why = "contacts, energies and measured columns of each grain, once a frame";
+        solver.measure.push(pass("measure", "measure_grains", why));
+    }
+    solver
+}
+
+/// The contact law's coefficients for the shaders.
+pub fn contact_values(scene: &Scene, contact: &scene::Contact) -> Contact {
+    Contact {
+        spring: contact.spring as f32,
+        damping: contact.damping as f32,
+        wall_damping: contact.wall_damping as f32,
+        shear: contact.shear as f32,
+        attraction: contact.attraction as f32,
+        global_damping: contact.global_damping as f32,
+        diameter: (2.0 * scene.grains.radius) as f32,
+        inverse_mass: (1.0 / scene.grains.mass) as f32,
+    }
+}
+
+/// Bounds with the sides that are not of this kind moved far away.
+fn bounds(scene: &Scene, kind: impl Fn(Wall) -> bool, inset: f32) -> ([f32; 4], [f32; 4]) {
+    let mut lower = [-FAR; 4];
+    let mut upper = [FAR; 4];
+    for axis in 0..scene.dimensions.count() {
+        if kind(scene.domain.sides[axis][0]) {
+            lower[axis] = scene.domain.min[axis] + inset;
+        }
+        if kind(scene.domain.sides[axis][1]) {
+            upper[axis] = scene.domain.max[axis] - inset;
+        }
+    }
+    (lower, upper)
+}
+
+pub fn contact_walls(scene: &Scene) -> ContactWalls {
+    let (lower, upper) = bounds(scene, |wall| wall == Wall::Contact, 0.0);
+    ContactWalls { lower, upper }
+}
+
+pub fn clamp_walls(scene: &Scene) -> ClampWalls {
+    let (lower, upper) = bounds(scene, |wall| wall == Wall::Clamp, scene.grains.radius as f32);
+    ClampWalls {
+        lower,
+        upper,
+        restitution: scene.domain.restitution,
+        ..Default::default()
+    }
+}
+
+/// Where grains count as lost: a diameter beyond a side that is not open.
+pub fn guard_bounds(scene: &Scene) -> ([f32; 4], [f32; 4]) {
+    bounds(scene, |wall| wall != Wall::Open, -2.0 * scene.grains.radius as f32)
+}
+
+pub fn measure(scene: &Scene, grid: &Grid) -> Measure {
+    use std::f64::consts::PI;
+    let radius = scene.grains.radius;
+    let side = f64::from(grid.side);
+    let (surface, block_volume) = match scene.dimensions {
+        Dimensions::Two => (2.0 * PI * radius, (3.0 * side).powi(2)),
+        Dimensions::Three => (4.0 * PI * radius * radius, (3.0 * side).powi(3)),
+    };
+    let Vec3 { x, y, z } = scene.domain.min;
+    Measure {
+        mass: scene.grains.mass as f32,
+        surface: surface as f32,
+        block_volume: block_volume as f32,
+        reference: [x, y, z, 0.0],
+        ..Default::default()
+    }
+}

@@ -1,0 +1,153 @@
+//! Structs that the shaders of `physics` and `common/parameters.wgsl` share with the host.
+
+use crate::gpu::shared::SharedLayout;
+use crate::shared_struct;
+
+shared_struct! {
+    pub struct Parameters {
+        /// m/s².
+        pub gravity: [f32; 4],
+        pub particle_count: u32,
+        /// Seconds.
+        pub time_step: f32,
+        pub _pad: [u32; 2],
+    }
+}
+
+shared_struct! {
+    pub struct Clock {
+        pub step_in_segment: u32,
+        pub step: u32,
+    }
+}
+
+shared_struct! {
+    pub struct Guard {
+        /// Metres; beyond it a particle is lost.
+        pub lower: [f32; 4],
+        pub upper: [f32; 4],
+        /// Of the first particle caught, metres.
+        pub position: [f32; 4],
+        /// m/s.
+        pub velocity: [f32; 4],
+        pub id: u32,
+        pub step: u32,
+        /// 1: not finite, 2: lost.
+        pub kind: u32,
+        pub count: u32,
+    }
+}
+
+shared_struct! {
+    pub struct ContactWalls {
+        pub lower: [f32; 4],
+        pub upper: [f32; 4],
+    }
+}
+
+shared_struct! {
+    pub struct ClampWalls {
+        pub lower: [f32; 4],
+        pub upper: [f32; 4],
+        pub restitution: f32,
+        pub _pad: [u32; 3],
+    }
+}
+
+shared_struct! {
+    pub struct Contact {
+        /// N/m.
+        pub spring: f32,
+        /// Between grains, N·s/m.
+        pub damping: f32,
+        /// Between a grain and a wall, N·s/m.
+        pub wall_damping: f32,
+        /// N·s/m.
+        pub shear: f32,
+        /// N/m.
+        pub attraction: f32,
+        /// 1/s.
+        pub global_damping: f32,
+        /// Metres.
+        pub diameter: f32,
+        /// 1/kg.
+        pub inverse_mass: f32,
+    }
+}
+
+shared_struct! {
+    pub struct Collider {
+        /// 0: plane, 1: box, 2: sphere, 3: mesh.
+        pub kind: u32,
+        pub field_offset: u32,
+        pub radius: f32,
+        pub cell: f32,
+        pub a: [f32; 4],
+        pub b: [f32; 4],
+        pub offset: [f32; 4],
+        pub velocity: [f32; 4],
+    }
+}
+
+shared_struct! {
+    pub struct Measure {
+        /// Of a grain, kg.
+        pub mass: f32,
+        /// Of a grain, m².
+        pub surface: f32,
+        /// Of the voxels that a search visits, m³.
+        pub block_volume: f32,
+        pub _pad: u32,
+        /// Where the potential energy is zero, metres.
+        pub reference: [f32; 4],
+    }
+}
+
+shared_struct! {
+    pub struct Sums {
+        /// Joules.
+        pub kinetic_energy: f32,
+        pub potential_energy: f32,
+        /// m/s.
+        pub max_speed: f32,
+        /// Metres.
+        pub max_overlap: f32,
+        /// Over all grains; a contact of two counts twice.
+        pub contacts: u32,
+    }
+}
+
+shared_struct! {
+    pub struct Occupancy {
+        pub voxels: u32,
+        /// Voxels with 0, 1, 2, 3, 4 and more particles.
+        pub holding: [u32; 6],
+        /// Particles that a pool has no room for.
+        pub beyond_slots: u32,
+    }
+}
+
+shared_struct! {
+    pub struct Overflow {
+        /// Particles without a slot in the last search.
+        pub now: u32,
+        /// The same, summed over the searches since the last frame.
+        pub since_last_frame: u32,
+    }
+}
+
+/// Everything to hold against the shaders.
+pub const SHARED: &[SharedLayout] = &[
+    Parameters::LAYOUT,
+    Clock::LAYOUT,
+    Guard::LAYOUT,
+    ContactWalls::LAYOUT,
+    ClampWalls::LAYOUT,
+    Contact::LAYOUT,
+    Collider::LAYOUT,
+    Measure::LAYOUT,
+    Sums::LAYOUT,
+    Occupancy::LAYOUT,
+    Overflow::LAYOUT,
+    crate::neighbors::Grid::LAYOUT,
+];

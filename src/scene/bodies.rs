@@ -1,0 +1,248 @@
+//! Bodies, filled with grains.
+
+use std::path::Path;
+
+use glam::DVec3;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+use super::fit::{self, Grains, Placed};
+use super::frame::{Frame, Report};
+use super::mesh::Mesh;
+use super::model::{self, Arrangement, Body, SceneFile, Shape};
+use super::obstacles::{self, FILE_MEND, check_corners, turn_and_place};
+use super::shapes::{self, Region};
+use super::text::number;
+use super::{Collider, Dimensions, Particles, particle_file};
+
+/// Ids, offsets and dispatches stay far inside 32 bits.
+pub const MOST_PARTICLES: u64 = 1 << 27;
+
+/// The grains that are there from the start, in the order of the bodies.
+pub fn fill(
+    file: &SceneFile,
+    frame: &Frame,
+    colliders: &[Collider],
+    folder: &Path,
+    report: &mut Report,
+) -> Particles {
+    let radius = file.grains.radius;
+    let mut placed = Placed::new(2.0 * radius);
+    let mut particles = Particles::default();
+    for (i, body) in file.bodies.iter().enumerate() {
+        let path = format!("bodies[{i}]");
+        let Some(mut grains) = grains(i, body, file, frame, folder, report) else {
+            continue;
+        };
+        if grains.position.is_empty() {
+            let mend = format!(
+                "make its shape larger or grains.radius ({} m) smaller",
+                number(radius)
+            );
+            report.problem(&path, "is empty: not one grain fits", mend);
+            continue;
+        }
+        fit::check_walls(&path, &grains.position, radius, frame, report);
+        fit::remove_inside_colliders(
+            &path,
+            &mut grains,
+            colliders,
+            radius,
+            frame.dimensions,
+            report,
+        );
+        fit::remove_overlaps(&path, &mut grains, &placed, report);
+        if i + 1 < file.bodies.len() {
+            placed.add(&grains.position, i);
+        }
+        particles
+            .position
+            .extend(grains.position.iter().map(|p| p.as_vec3()));
+        particles
+            .velocity
+            .extend(grains.velocity.iter().map(|v| v.as_vec3()));
+    }
+    particles
+}
+
+fn grains(
+    index: usize,
+    body: &Body,
+    file: &SceneFile,
+    frame: &Frame,
+    folder: &Path,
+    report: &mut Report,
+) -> Option<Grains> {
+    let path = format!("bodies[{index}]");
+    let velocity = report.optional(
+        &format!("{path}.velocity"),
+        body.velocity.as_ref(),
+        frame.dimensions,
+    );
+    let shape = format!("{path}.shape");
+    let radius = file.grains.radius;
+    if let Shape::Particles { file, placement } = &body.shape {
+        if body.spacing.is_some()
+            || body.jitter != 0.0
+            || body.arrangement != Arrangement::default()
+        {
+            report.problem(
+                &path,
+                "a particle file says itself where grains are",
+                "remove `arrangement`, `spacing` and `jitter`",
+            );
+        }
+        let mut grains = from_file(&shape, file, placement, velocity, frame, folder, report)?;
+        fit::remove_coincident(&path, &mut grains, radius, report);
+        return Some(grains);
+    }
+    let region = region(&shape, &body.shape, frame, folder, report)?;
+    let spacing = body.spacing.unwrap_or(2.0 * radius);
+    if spacing < 2.0 * radius * (1.0 - 1e-9) {
+        report.problem(
+            format!("{path}.spacing"),
+            format!(
+                "{} m is less than a grain's diameter: grains would overlap",
+                number(spacing)
+            ),
+            format!("give at least {} m, or leave it out", number(2.0 * radius)),
+        );
+        return None;
+    }
+    let at_most = lattice_points(&region, frame.dimensions, spacing);
+    if at_most > MOST_PARTICLES as f64 {
+        report.problem(
+            &path,
+            format!("would hold about {} grains", number(at_most)),
+            format!("make it smaller or grains larger: at most {MOST_PARTICLES} particles"),
+        );
+        return None;
+    }
+    // Each body has its own stream, so that changing one body leaves the others as they were.
+    let mut random = ChaCha8Rng::seed_from_u64(file.seed);
+    random.set_stream(index as u64);
+    let position = match body.arrangement {
+        Arrangement::Lattice => shapes::lattice(
+            &region,
+            frame.dimensions,
+            radius,
+            spacing,
+            body.jitter,
+            &mut random,
+        ),
+        Arrangement::Random => shapes::random(
+            &region,
+            frame.dimensions,
+            radius,
+            body.fraction,
+            &mut random,
+        ),
+    };
+    let velocity = vec![velocity; position.len()];
+    Some(Grains { position, velocity })
+}
+
+/// Local coordinates.
+fn region(
+    path: &str,
+    shape: &Shape,
+    frame: &Frame,
+    folder: &Path,
+    report: &mut Report,
+) -> Option<Region> {
+    let mut point = |key: &str, given: &model::Coordinates| {
+        let point = report.vector(&format!("{path}.{key}"), given, frame.dimensions);
+        frame.local(point)
+    };
+    match shape {
+        Shape::Box { min, max } => {
+            let (min, max) = (point("min", min), point("max", max));
+            check_corners(path, min, max, frame, report).then_some(Region::Box { min, max })
+        }
+        Shape::Sphere { center, radius } => Some(Region::Sphere {
+            center: point("center", center),
+            radius: *radius,
+        }),
+        Shape::Cylinder { from, to, radius } => {
+            if frame.dimensions == Dimensions::Two {
+                report.problem(
+                    path,
+                    "a cylinder in a 2D scene",
+                    "use a box or sphere, or set `dimensions` to 3",
+                );
+                return None;
+            }
+            let (from, to) = (point("from", from), point("to", to));
+            if from == to {
+                report.problem(
+                    path,
+                    "`from` and `to` are one point",
+                    "move them apart, along the cylinder's axis",
+                );
+                return None;
+            }
+            let radius = *radius;
+            Some(Region::Cylinder { from, to, radius })
+        }
+        Shape::Mesh { file, placement } => {
+            obstacles::mesh(path, file, placement, frame, folder, report).map(Region::Mesh)
+        }
+        Shape::Particles { .. } => None,
+    }
+}
+
+/// Points of a lattice in the region's bounds, before any is made.
+fn lattice_points(region: &Region, dimensions: Dimensions, spacing: f64) -> f64 {
+    let size = match region {
+        Region::Box { min, max } => *max - *min,
+        Region::Sphere { radius, .. } => DVec3::splat(2.0 * radius),
+        Region::Cylinder { from, to, radius } => (*to - *from).abs() + 2.0 * radius,
+        Region::Mesh(mesh) => {
+            let (low, high) = mesh.bounds();
+            high - low
+        }
+    };
+    (0..dimensions.count())
+        .map(|axis| (size[axis] / spacing).max(1.0))
+        .product()
+}
+
+/// The particles of a file, by id.
+fn from_file(
+    path: &str,
+    file: &str,
+    placement: &model::Placement,
+    velocity: DVec3,
+    frame: &Frame,
+    folder: &Path,
+    report: &mut Report,
+) -> Option<Grains> {
+    let loaded = match particle_file::load(&folder.join(file), frame.dimensions) {
+        Ok(loaded) => loaded,
+        Err(reason) => {
+            report.problem(format!("{path}.file"), reason, FILE_MEND);
+            return None;
+        }
+    };
+    let (rotate, translate) = turn_and_place(path, placement, frame, report);
+    let turned = |points: Vec<DVec3>, scale: f64, translate: DVec3| {
+        let cloud = Mesh {
+            vertices: points,
+            triangles: Vec::new(),
+        };
+        cloud.placed(scale, rotate, translate).vertices
+    };
+    let position = turned(loaded.position, placement.scale, translate);
+    let own = loaded
+        .velocity
+        .unwrap_or_else(|| vec![DVec3::ZERO; position.len()]);
+    let own = turned(own, 1.0, DVec3::ZERO);
+    let mut order: Vec<usize> = (0..position.len()).collect();
+    if let Some(ids) = &loaded.id {
+        order.sort_by_key(|&i| ids[i]);
+    }
+    Some(Grains {
+        position: order.iter().map(|&i| frame.snap(position[i])).collect(),
+        velocity: order.iter().map(|&i| own[i] + velocity).collect(),
+    })
+}

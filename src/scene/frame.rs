@@ -1,0 +1,175 @@
+//! The scene's frame of reference: dimensions, origin, domain; and the problems and notes gathered on the way.
+
+use glam::DVec3;
+
+use super::model::{Coordinates, SceneFile, Wall};
+use super::text::number;
+use super::{Dimensions, Domain};
+use crate::error::Problem;
+
+/// Metres; and the bound of velocities, m/s. Far beyond it, f32 cannot hold the square of a number.
+const LARGEST_COORDINATE: f64 = 1e9;
+
+/// What validation found so far.
+#[derive(Default)]
+pub struct Report {
+    pub problems: Vec<Problem>,
+    pub notes: Vec<String>,
+}
+
+impl Report {
+    pub fn problem(
+        &mut self,
+        path: impl Into<String>,
+        what: impl Into<String>,
+        mend: impl Into<String>,
+    ) {
+        self.problems.push(Problem::new(path, what, mend));
+    }
+
+    /// A point or vector with as many numbers as the scene has dimensions; a 2D scene may give z as 0.
+    pub fn vector(&mut self, path: &str, given: &Coordinates, dimensions: Dimensions) -> DVec3 {
+        let numbers = &given.0;
+        let z = numbers.get(2).copied().unwrap_or(0.0);
+        match dimensions {
+            Dimensions::Three if numbers.len() != 3 => self.problem(
+                path,
+                format!("{} numbers in a 3D scene", numbers.len()),
+                "give x, y and z, or set `dimensions` to 2",
+            ),
+            Dimensions::Two if z != 0.0 => self.problem(
+                path,
+                format!("z is {} in a 2D scene", number(z)),
+                "leave z out, or set `dimensions` to 3",
+            ),
+            _ => {}
+        }
+        if let Some(far) = numbers.iter().find(|x| x.abs() > LARGEST_COORDINATE) {
+            self.problem(
+                path,
+                format!("{} is too large", number(*far)),
+                format!(
+                    "give numbers between -{0} and {0}",
+                    number(LARGEST_COORDINATE)
+                ),
+            );
+        }
+        DVec3::new(numbers[0], numbers[1], z)
+    }
+
+    /// A vector that may be left out: zero then.
+    pub fn optional(
+        &mut self,
+        path: &str,
+        given: Option<&Coordinates>,
+        dimensions: Dimensions,
+    ) -> DVec3 {
+        given.map_or(DVec3::ZERO, |given| self.vector(path, given, dimensions))
+    }
+}
+
+/// The domain and the local coordinates that have their zero at its center.
+pub struct Frame {
+    pub dimensions: Dimensions,
+    /// In the scene's coordinates, metres.
+    pub origin: DVec3,
+    /// Local corners, metres.
+    pub min: DVec3,
+    pub max: DVec3,
+    pub sides: [[Wall; 2]; 3],
+    /// Steps of the decimal grid that local coordinates are snapped to, 1/m.
+    quanta_per_metre: f64,
+}
+
+impl Frame {
+    pub fn new(file: &SceneFile, report: &mut Report) -> Self {
+        let dimensions = match file.dimensions {
+            2 => Dimensions::Two,
+            _ => Dimensions::Three,
+        };
+        let low = report.vector("domain.min", &file.domain.min, dimensions);
+        let high = report.vector("domain.max", &file.domain.max, dimensions);
+        let diameter = 2.0 * file.grains.radius;
+        for (axis, name) in AXES.iter().enumerate().take(dimensions.count()) {
+            let width = high[axis] - low[axis];
+            if width <= 0.0 {
+                report.problem(
+                    "domain",
+                    format!(
+                        "min {} is not below max {} along {name}",
+                        number(low[axis]),
+                        number(high[axis])
+                    ),
+                    "swap them, or move one",
+                );
+            } else if width < 2.0 * diameter * (1.0 - 1e-9) {
+                report.problem(
+                    "domain",
+                    format!(
+                        "{} m wide along {name}, less than two grain diameters",
+                        number(width)
+                    ),
+                    format!(
+                        "make it at least {} m wide, or grains.radius smaller",
+                        number(2.0 * diameter)
+                    ),
+                );
+            }
+        }
+        let mut frame = Self {
+            dimensions,
+            origin: (low + high) / 2.0,
+            min: DVec3::ZERO,
+            max: DVec3::ZERO,
+            sides: sides(file, dimensions, report),
+            quanta_per_metre: 10f64.powi(7 - file.grains.radius.log10().floor() as i32),
+        };
+        frame.min = frame.local(low);
+        frame.max = frame.local(high);
+        frame
+    }
+
+    /// Local coordinates of a point of the scene.
+    pub fn local(&self, point: DVec3) -> DVec3 {
+        self.snap(point - self.origin)
+    }
+
+    /// Local coordinates, rounded to a ten-millionth of the radius' decade, so that a scene moved by a million metres
+    /// gives the same numbers: what f64 lost by the move is smaller than half a quantum.
+    pub fn snap(&self, local: DVec3) -> DVec3 {
+        (local * self.quanta_per_metre).round() / self.quanta_per_metre
+    }
+
+    pub fn domain(&self, restitution: f64) -> Domain {
+        Domain {
+            min: self.min.as_vec3(),
+            max: self.max.as_vec3(),
+            sides: self.sides,
+            restitution: restitution as f32,
+        }
+    }
+
+    /// Names of the axes that the scene has.
+    pub fn axes(&self) -> impl Iterator<Item = (usize, &'static str)> {
+        AXES.into_iter().enumerate().take(self.dimensions.count())
+    }
+}
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+fn sides(file: &SceneFile, dimensions: Dimensions, report: &mut Report) -> [[Wall; 2]; 3] {
+    let named = &file.domain.sides;
+    if dimensions == Dimensions::Two && (named.z_min.is_some() || named.z_max.is_some()) {
+        report.problem(
+            "domain.sides",
+            "a 2D scene has no z sides",
+            "remove `z_min` and `z_max`",
+        );
+    }
+    let or_all = |side: Option<Wall>| side.unwrap_or(file.domain.walls);
+    [
+        [or_all(named.x_min), or_all(named.x_max)],
+        [or_all(named.y_min), or_all(named.y_max)],
+        [or_all(named.z_min), or_all(named.z_max)],
+    ]
+}

@@ -1,0 +1,147 @@
+//! JSON text to a value: no key twice, and errors that say where and what to do.
+
+use std::fmt;
+
+use serde::de::{Deserialize, Deserializer, Error as _, MapAccess, SeqAccess, Visitor};
+use serde_json::{Map, Value};
+
+use crate::error::Problem;
+
+/// Parses JSON text; a key that occurs twice in an object is an error.
+pub fn parse(text: &str) -> Result<Value, Problem> {
+    serde_json::from_str::<Strict>(text)
+        .map(|strict| strict.0)
+        .map_err(|error| explain(text, &error))
+}
+
+struct Strict(Value);
+
+impl<'de> Deserialize<'de> for Strict {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(StrictVisitor).map(Strict)
+    }
+}
+
+struct StrictVisitor;
+
+impl<'de> Visitor<'de> for StrictVisitor {
+    type Value = Value;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a JSON value")
+    }
+    fn visit_unit<E>(self) -> Result<Value, E> {
+        Ok(Value::Null)
+    }
+    fn visit_bool<E>(self, value: bool) -> Result<Value, E> {
+        Ok(value.into())
+    }
+    fn visit_i64<E>(self, value: i64) -> Result<Value, E> {
+        Ok(value.into())
+    }
+    fn visit_u64<E>(self, value: u64) -> Result<Value, E> {
+        Ok(value.into())
+    }
+    fn visit_f64<E>(self, value: f64) -> Result<Value, E> {
+        Ok(value.into())
+    }
+    fn visit_str<E>(self, value: &str) -> Result<Value, E> {
+        Ok(value.into())
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Value, A::Error> {
+        let mut array = Vec::new();
+        while let Some(Strict(element)) = elements.next_element()? {
+            array.push(element);
+        }
+        Ok(array.into())
+    }
+    fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Value, A::Error> {
+        let mut object = Map::new();
+        while let Some(key) = entries.next_key::<String>()? {
+            if object.contains_key(&key) {
+                return Err(A::Error::custom(format!("key `{key}` stands here twice")));
+            }
+            let Strict(value) = entries.next_value()?;
+            object.insert(key, value);
+        }
+        Ok(object.into())
+    }
+}
+
+/// What a syntax error most likely is, and its mend.
+fn explain(text: &str, error: &serde_json::Error) -> Problem {
+    let place = format!("line {}, column {}", error.line(), error.column());
+    let full = error.to_string();
+    let what = full.split(" at line ").next().unwrap_or(&full);
+    let word = word_at(text, error.line(), error.column());
+    let bare = word.trim_start_matches(['-', '+']).to_lowercase();
+    let (what, mend) = if ["nan", "inf", "infinity"].contains(&bare.as_str()) {
+        (
+            format!("`{word}` is not a JSON number"),
+            "JSON has no NaN and no Infinity; give a finite number",
+        )
+    } else if what.contains("out of range") {
+        (
+            format!("`{word}` is too large for a number"),
+            "JSON has no Infinity; give a finite number, at most 1e308",
+        )
+    } else if word.starts_with("//") || word.starts_with("/*") || word.starts_with('#') {
+        (
+            "a comment".into(),
+            "JSON has no comments; remove it, or use `description`",
+        )
+    } else {
+        (what.to_string(), mend_for(what))
+    };
+    Problem::new(place, what, mend)
+}
+
+fn mend_for(what: &str) -> &'static str {
+    const MENDS: &[(&str, &str)] = &[
+        ("twice", "keep one of them"),
+        (
+            "trailing comma",
+            "remove the comma before the closing bracket",
+        ),
+        (
+            "expected `,` or",
+            "put a comma between entries, or close the bracket",
+        ),
+        ("expected `:`", "put a colon between key and value"),
+        ("key must be a string", "put the key in double quotes"),
+        ("EOF", "close every `{`, `[` and `\"` that is open"),
+        (
+            "trailing characters",
+            "remove what follows the scene's last `}`",
+        ),
+        ("invalid number", "write numbers as 1, -0.5 or 2.5e-3"),
+        ("control character", "write a line break inside text as \\n"),
+    ];
+    MENDS.iter().find(|(part, _)| what.contains(part)).map_or(
+        "give a number, \"text\", true, false, [list] or {object}",
+        |(_, mend)| mend,
+    )
+}
+
+/// The word around a place (both counted from 1), for the message.
+fn word_at(text: &str, line: usize, column: usize) -> &str {
+    let line = text.lines().nth(line.saturating_sub(1)).unwrap_or("");
+    let is_end = |c: char| c.is_whitespace() || ",:[]{}\"".contains(c);
+    let mut at = column.saturating_sub(1).min(line.len());
+    while !line.is_char_boundary(at) {
+        at -= 1;
+    }
+    // The parser may point one past the word.
+    if line[at..].starts_with(is_end) || at == line.len() {
+        at = line[..at]
+            .char_indices()
+            .next_back()
+            .map_or(0, |(before, _)| before);
+    }
+    let start = line[..at]
+        .char_indices()
+        .rfind(|(_, c)| is_end(*c))
+        .map_or(0, |(end, c)| end + c.len_utf8());
+    let length = line[start..].find(is_end).unwrap_or(line.len() - start);
+    &line[start..start + length]
+}

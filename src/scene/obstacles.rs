@@ -1,0 +1,317 @@
+//! Colliders: from the scene file to local coordinates, and which grains touch them.
+
+use std::path::Path;
+
+use glam::DVec3;
+
+use super::frame::{Frame, Report};
+use super::mesh::Mesh;
+use super::mesh::surface::Surface;
+use super::text::number;
+use super::{Collider, ColliderShape, Dimensions, color_maps, model};
+
+/// All colliders, with their motion along their own paths; `schedule` adds what events move.
+pub fn colliders(
+    file: &model::SceneFile,
+    frame: &Frame,
+    folder: &Path,
+    report: &mut Report,
+) -> Vec<Collider> {
+    let mut colliders = Vec::new();
+    for (i, given) in file.colliders.iter().enumerate() {
+        let path = format!("colliders[{i}]");
+        let twin = file.colliders[..i]
+            .iter()
+            .position(|other| other.name == given.name);
+        if let (Some(twin), false) = (twin, given.name.is_empty()) {
+            report.problem(
+                format!("{path}.name"),
+                format!("colliders[{twin}] has the same name"),
+                "give each collider its own",
+            );
+        }
+        let Some(shape) = shape(
+            &format!("{path}.shape"),
+            &given.shape,
+            frame,
+            folder,
+            report,
+        ) else {
+            continue;
+        };
+        let color = color_maps::parse_hex(&given.color).unwrap_or_else(|| {
+            report.problem(
+                format!("{path}.color"),
+                format!("\"{}\" is not a color", given.color),
+                "write six hexadecimal digits: \"#8a8f98\"",
+            );
+            [0; 3]
+        });
+        colliders.push(Collider {
+            name: given.name.clone(),
+            shape,
+            path: motion(&format!("{path}.path"), &given.path, frame, report),
+            color: color.map(|channel| f32::from(channel) / 255.0),
+            visible: given.visible,
+        });
+    }
+    colliders
+}
+
+fn motion(
+    path: &str,
+    points: &[model::PathPoint],
+    frame: &Frame,
+    report: &mut Report,
+) -> Vec<(f64, glam::Vec3)> {
+    for (i, pair) in points.windows(2).enumerate() {
+        if pair[1].at <= pair[0].at {
+            report.problem(
+                format!("{path}[{}].at", i + 1),
+                format!(
+                    "{} s is not after the point before, at {} s",
+                    number(pair[1].at),
+                    number(pair[0].at)
+                ),
+                "put the points in order of time",
+            );
+        }
+    }
+    let point = |(i, point): (usize, &model::PathPoint)| {
+        let offset = report.vector(
+            &format!("{path}[{i}].offset"),
+            &point.offset,
+            frame.dimensions,
+        );
+        (point.at, offset.as_vec3())
+    };
+    points.iter().enumerate().map(point).collect()
+}
+
+fn shape(
+    path: &str,
+    given: &model::ColliderShape,
+    frame: &Frame,
+    folder: &Path,
+    report: &mut Report,
+) -> Option<ColliderShape> {
+    let mut point = |key: &str, given: &model::Coordinates| {
+        let point = report.vector(&format!("{path}.{key}"), given, frame.dimensions);
+        frame.local(point)
+    };
+    match given {
+        model::ColliderShape::Plane { point: at, normal } => {
+            let at = point("point", at);
+            let normal = report.vector(&format!("{path}.normal"), normal, frame.dimensions);
+            let Some(normal) = normal.try_normalize() else {
+                report.problem(
+                    format!("{path}.normal"),
+                    "has no length",
+                    "point it out of the solid",
+                );
+                return None;
+            };
+            Some(ColliderShape::Plane {
+                point: at.as_vec3(),
+                normal: normal.as_vec3(),
+            })
+        }
+        model::ColliderShape::Box { min, max } => {
+            let (mut min, mut max) = (point("min", min), point("max", max));
+            if frame.dimensions == Dimensions::Two {
+                (min.z, max.z) = (0.0, 0.0);
+            }
+            check_corners(path, min, max, frame, report).then(|| ColliderShape::Box {
+                min: min.as_vec3(),
+                max: max.as_vec3(),
+            })
+        }
+        model::ColliderShape::Sphere { center, radius } => Some(ColliderShape::Sphere {
+            center: point("center", center).as_vec3(),
+            radius: *radius as f32,
+        }),
+        model::ColliderShape::Mesh { file, placement } => {
+            mesh(path, file, placement, frame, folder, report).map(ColliderShape::Mesh)
+        }
+    }
+}
+
+/// Whether a box's corners are in order; a problem if not.
+pub fn check_corners(
+    path: &str,
+    min: DVec3,
+    max: DVec3,
+    frame: &Frame,
+    report: &mut Report,
+) -> bool {
+    let wrong = frame.axes().find(|(axis, _)| min[*axis] >= max[*axis]);
+    if let Some((_, name)) = wrong {
+        report.problem(
+            path,
+            format!("min is not below max along {name}"),
+            "swap them, or move one",
+        );
+    }
+    wrong.is_none()
+}
+
+/// A closed mesh in local coordinates.
+pub fn mesh(
+    path: &str,
+    file: &str,
+    placement: &model::Placement,
+    frame: &Frame,
+    folder: &Path,
+    report: &mut Report,
+) -> Option<Mesh> {
+    if frame.dimensions == Dimensions::Two {
+        report.problem(
+            path,
+            "a mesh in a 2D scene",
+            "use a box or sphere, or set `dimensions` to 3",
+        );
+        return None;
+    }
+    let mesh = match Mesh::load(&folder.join(file)) {
+        Ok(mesh) => mesh,
+        Err(reason) => {
+            report.problem(format!("{path}.file"), reason, FILE_MEND);
+            return None;
+        }
+    };
+    let open = mesh.open_edges();
+    if open > 0 {
+        report.problem(
+            format!("{path}.file"),
+            format!("{file} is not closed: {open} edges have a triangle on one side only"),
+            "close its holes in the program that made it (Blender: Mesh, Clean Up, Fill Holes)",
+        );
+        return None;
+    }
+    let (rotate, translate) = turn_and_place(path, placement, frame, report);
+    Some(mesh.placed(placement.scale, rotate, translate))
+}
+
+pub const FILE_MEND: &str =
+    "check the path, which is relative to the scene file, and the file itself";
+
+/// Degrees about the axes, and the move in local coordinates, metres.
+pub fn turn_and_place(
+    path: &str,
+    placement: &model::Placement,
+    frame: &Frame,
+    report: &mut Report,
+) -> (DVec3, DVec3) {
+    let place = format!("{path}.placement.rotate");
+    let rotate = match &placement.rotate {
+        None => DVec3::ZERO,
+        // The two dimensions' only axis is z, so a turn always has three numbers.
+        Some(turn) => report.vector(&place, turn, Dimensions::Three),
+    };
+    if frame.dimensions == Dimensions::Two && (rotate.x != 0.0 || rotate.y != 0.0) {
+        report.problem(
+            place,
+            "turns out of the plane of a 2D scene",
+            "turn about z only: [0, 0, 30]",
+        );
+    }
+    let translate = report.optional(
+        &format!("{path}.placement.translate"),
+        placement.translate.as_ref(),
+        frame.dimensions,
+    );
+    (rotate, frame.local(translate))
+}
+
+/// A collider's shape, ready to be asked which grains touch it.
+pub struct Obstacle<'a> {
+    shape: &'a ColliderShape,
+    /// Of a mesh.
+    surface: Option<Surface>,
+    dimensions: Dimensions,
+}
+
+impl<'a> Obstacle<'a> {
+    pub fn new(shape: &'a ColliderShape, dimensions: Dimensions) -> Self {
+        let surface = match shape {
+            ColliderShape::Mesh(mesh) => Some(Surface::new(mesh)),
+            _ => None,
+        };
+        Self {
+            shape,
+            surface,
+            dimensions,
+        }
+    }
+
+    /// Whether a ball of radius `reach` touches it, or lies inside.
+    pub fn touches(&self, center: DVec3, reach: f64) -> bool {
+        match self.shape {
+            ColliderShape::Plane { point, normal } => {
+                normal.as_dvec3().dot(center - point.as_dvec3()) < reach
+            }
+            ColliderShape::Box { min, max } => {
+                let nearest = center.clamp(min.as_dvec3(), max.as_dvec3());
+                let away = center - nearest;
+                let away = match self.dimensions {
+                    Dimensions::Two => away.with_z(0.0),
+                    Dimensions::Three => away,
+                };
+                away.length() < reach
+            }
+            ColliderShape::Sphere {
+                center: middle,
+                radius,
+            } => center.distance(middle.as_dvec3()) < f64::from(*radius) + reach,
+            ColliderShape::Mesh(_) => self.surface.as_ref().is_some_and(|surface| {
+                surface.distance(center, reach) < reach || surface.contains(center)
+            }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::mesh::samples::cube;
+
+    #[test]
+    fn a_box_of_triangles_is_a_box() {
+        let (min, max) = (DVec3::new(-1.0, 0.0, 0.5), DVec3::new(0.5, 2.0, 1.0));
+        let triangles = ColliderShape::Mesh(cube(min, max));
+        let exact = ColliderShape::Box {
+            min: min.as_vec3(),
+            max: max.as_vec3(),
+        };
+        let [triangles, exact] =
+            [&triangles, &exact].map(|shape| Obstacle::new(shape, Dimensions::Three));
+        let ticks = [-1.7, -0.9, -0.3, 0.4, 0.6, 0.9, 1.3, 2.2];
+        for reach in [0.05, 0.3, 0.7] {
+            let mut touching = 0;
+            for (x, y, z) in (0..512).map(|i| (ticks[i % 8], ticks[i / 8 % 8], ticks[i / 64])) {
+                let point = DVec3::new(x, y, z);
+                let expected = exact.touches(point, reach);
+                assert_eq!(
+                    triangles.touches(point, reach),
+                    expected,
+                    "{point}, {reach}"
+                );
+                touching += usize::from(expected);
+            }
+            assert!(touching >= 3 * 4 * 2);
+        }
+    }
+
+    #[test]
+    fn a_flat_box_touches_what_is_beside_it() {
+        let shape = ColliderShape::Box {
+            min: glam::Vec3::ZERO,
+            max: glam::Vec3::new(2.0, 1.0, 0.0),
+        };
+        let flat = Obstacle::new(&shape, Dimensions::Two);
+        let touches = |x: f64, y: f64, reach: f64| flat.touches(DVec3::new(x, y, 0.0), reach);
+        assert!(touches(1.0, 0.75, 0.01));
+        assert!(touches(1.0, 1.5, 0.51) && !touches(1.0, 1.5, 0.49));
+        assert!(touches(5.0, 5.0, 5.01) && !touches(5.0, 5.0, 4.99));
+    }
+}

@@ -1,0 +1,110 @@
+//! Reads from a PLY file what scenes need: the numbers of its vertices, and its faces.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use ply_rs_bw::parser::{ParseError, Parser, Reader};
+use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
+
+use super::particle_file::{Row, column};
+
+pub struct PlyFile {
+    /// Properties that each vertex has, as the file names them.
+    pub properties: Vec<String>,
+    pub vertices: Vec<Row>,
+    /// Vertex indices of each polygon, counted from 0, unchecked.
+    pub faces: Vec<Vec<i64>>,
+}
+
+pub fn read(path: &Path) -> Result<PlyFile, String> {
+    let file = File::open(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let explain = |error: ParseError| {
+        // Its first line tells where; the others repeat the text.
+        let error = error.to_string();
+        format!(
+            "{} is not a readable PLY file: {}; export it again as PLY 1.0, with finite numbers",
+            path.display(),
+            error
+                .lines()
+                .next()
+                .unwrap_or_default()
+                .trim_end_matches('.')
+        )
+    };
+
+    let mut reader = Reader::new(BufReader::new(file));
+    let header = Parser::<Row>::new()
+        .read_header(&mut reader)
+        .map_err(explain)?;
+    let mut ply = PlyFile {
+        properties: Vec::new(),
+        vertices: Vec::new(),
+        faces: Vec::new(),
+    };
+    for (name, element) in &header.elements {
+        if name == "face" {
+            let faces = Parser::<Face>::new()
+                .read_payload_for_element(&mut reader, element, &header)
+                .map_err(explain)?;
+            ply.faces = faces.into_iter().map(|face| face.0).collect();
+        } else {
+            let rows = Parser::<Row>::new()
+                .read_payload_for_element(&mut reader, element, &header)
+                .map_err(explain)?;
+            if name == "vertex" {
+                ply.properties = element.properties.keys().cloned().collect();
+                ply.vertices = rows;
+            }
+        }
+    }
+    Ok(ply)
+}
+
+impl PropertyAccess for Row {
+    fn new() -> Self {
+        Row::default()
+    }
+
+    fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
+        let Some(column) = column(name) else {
+            return PropertyAccessResult::Ignored;
+        };
+        self.0[column] = match value {
+            Property::Char(v) => v.into(),
+            Property::UChar(v) => v.into(),
+            Property::Short(v) => v.into(),
+            Property::UShort(v) => v.into(),
+            Property::Int(v) => v.into(),
+            Property::UInt(v) => v.into(),
+            Property::Float(v) => v.into(),
+            Property::Double(v) => v,
+            _ => return PropertyAccessResult::UnsupportedType,
+        };
+        PropertyAccessResult::Set
+    }
+}
+
+struct Face(Vec<i64>);
+
+impl PropertyAccess for Face {
+    fn new() -> Self {
+        Face(Vec::new())
+    }
+
+    fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
+        if name != "vertex_indices" && name != "vertex_index" {
+            return PropertyAccessResult::Ignored;
+        }
+        self.0 = match value {
+            Property::ListChar(v) => v.into_iter().map(i64::from).collect(),
+            Property::ListUChar(v) => v.into_iter().map(i64::from).collect(),
+            Property::ListShort(v) => v.into_iter().map(i64::from).collect(),
+            Property::ListUShort(v) => v.into_iter().map(i64::from).collect(),
+            Property::ListInt(v) => v.into_iter().map(i64::from).collect(),
+            Property::ListUInt(v) => v.into_iter().map(i64::from).collect(),
+            _ => return PropertyAccessResult::UnsupportedType,
+        };
+        PropertyAccessResult::Set
+    }
+}

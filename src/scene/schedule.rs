@@ -1,0 +1,351 @@
+//! Events and emitters, unrolled into what happens at which time.
+
+use glam::DVec3;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+use super::bodies::MOST_PARTICLES;
+use super::contact::Law;
+use super::emission;
+use super::frame::{Frame, Report};
+use super::model::{Emitter, Event, SceneFile};
+use super::motion::{self, Shift};
+use super::shapes::{self, Region};
+use super::text::{number, suggest};
+use super::{Action, Collider, Contact, Particles, Scheduled};
+
+/// An emitter's layers stand this many radii apart when the scene does not say: a tenth more than touching.
+const DEFAULT_SPACING_RADII: f64 = 2.2;
+
+pub struct Schedule {
+    /// By time.
+    pub actions: Vec<Scheduled>,
+    /// The contact law after each change.
+    pub contacts: Vec<Contact>,
+}
+
+/// Everything that happens before `end`, in seconds; moves lengthen the colliders' paths.
+pub fn schedule(
+    file: &SceneFile,
+    frame: &Frame,
+    law: Law,
+    mass: f64,
+    end: f64,
+    colliders: &mut [Collider],
+    report: &mut Report,
+) -> Schedule {
+    let mut unroll = Unroll {
+        file,
+        frame,
+        mass,
+        law,
+        gravity: report.vector("gravity", &file.gravity, frame.dimensions),
+        actions: Vec::new(),
+        contacts: Vec::new(),
+        switches: vec![Vec::new(); file.emitters.len()],
+        moves: vec![Vec::new(); colliders.len()],
+    };
+    let mut order: Vec<(usize, &Event)> = file.events.iter().enumerate().collect();
+    order.sort_by(|(_, a), (_, b)| a.at.total_cmp(&b.at));
+    for (i, event) in order {
+        let path = format!("events[{i}]");
+        if event.at >= end {
+            report.notes.push(format!(
+                "{path} happens at {} s, but the run ends at {} s: it has no effect",
+                number(event.at),
+                number(end)
+            ));
+        }
+        unroll.event(&path, event, event.at < end, colliders, report);
+    }
+    for (i, emitter) in file.emitters.iter().enumerate() {
+        unroll.emitter(i, emitter, end, report);
+    }
+    for (collider, moves) in colliders.iter_mut().zip(&unroll.moves) {
+        motion::add(collider, moves);
+    }
+    unroll.actions.sort_by(|a, b| a.time.total_cmp(&b.time));
+    Schedule {
+        actions: unroll.actions,
+        contacts: unroll.contacts,
+    }
+}
+
+struct Unroll<'a> {
+    file: &'a SceneFile,
+    frame: &'a Frame,
+    mass: f64,
+    law: Law,
+    gravity: DVec3,
+    actions: Vec<Scheduled>,
+    contacts: Vec<Contact>,
+    /// By emitter: when it is switched on or off.
+    switches: Vec<Vec<(f64, bool)>>,
+    /// By collider.
+    moves: Vec<Vec<Shift>>,
+}
+
+impl Unroll<'_> {
+    fn event(
+        &mut self,
+        path: &str,
+        event: &Event,
+        happens: bool,
+        colliders: &[Collider],
+        report: &mut Report,
+    ) {
+        if event.set.is_none()
+            && event.drop.is_none()
+            && event.emitter.is_none()
+            && event.move_collider.is_none()
+        {
+            report.problem(
+                path,
+                "does nothing",
+                "add `set`, `drop`, `emitter` or `move`",
+            );
+        }
+        let time = event.at;
+        let act = |action: Action| Scheduled { time, action };
+        if let Some(change) = &event.set {
+            let place = format!("{path}.set");
+            let law = self.law.changed(&place, change, report);
+            let gravity = match &change.gravity {
+                Some(gravity) => {
+                    report.vector(&format!("{place}.gravity"), gravity, self.frame.dimensions)
+                }
+                None => self.gravity,
+            };
+            if happens {
+                (self.law, self.gravity) = (law, gravity);
+                let contact = law.contact(self.mass);
+                self.contacts.push(contact);
+                let gravity = gravity.as_vec3();
+                self.actions
+                    .push(act(Action::SetParameters { gravity, contact }));
+            }
+        }
+        if event.drop.is_some() {
+            let ball = self.drop(&format!("{path}.drop"), event, report);
+            if let (Some(ball), true) = (ball, happens) {
+                self.actions.push(act(Action::Add(ball)));
+            }
+        }
+        if let Some(switch) = &event.emitter {
+            let names = self
+                .file
+                .emitters
+                .iter()
+                .map(|emitter| emitter.name.as_str());
+            match names.clone().position(|name| name == switch.name) {
+                Some(i) => self.switches[i].push((time, switch.on)),
+                None => unknown(
+                    &format!("{path}.emitter.name"),
+                    "emitter",
+                    &switch.name,
+                    names,
+                    report,
+                ),
+            }
+        }
+        if let Some(given) = &event.move_collider {
+            let by = report
+                .vector(&format!("{path}.move.by"), &given.by, self.frame.dimensions)
+                .as_vec3();
+            let (start, end) = (time, time + given.during);
+            let place = format!("{path}.move.collider");
+            let found = colliders
+                .iter()
+                .position(|collider| collider.name == given.collider);
+            match found {
+                Some(i) if happens => self.moves[i].push(Shift { start, end, by }),
+                Some(_) => {}
+                None => {
+                    let names = self
+                        .file
+                        .colliders
+                        .iter()
+                        .map(|collider| collider.name.as_str());
+                    // A collider that is itself wrong has its own message.
+                    if !names.clone().any(|name| name == given.collider) {
+                        let named = names.filter(|name| !name.is_empty());
+                        unknown(&place, "collider", &given.collider, named, report);
+                    }
+                }
+            }
+        }
+    }
+
+    /// A ball of grains on a lattice.
+    fn drop(&self, path: &str, event: &Event, report: &mut Report) -> Option<Particles> {
+        let drop = event.drop.as_ref()?;
+        let center = report.vector(
+            &format!("{path}.center"),
+            &drop.center,
+            self.frame.dimensions,
+        );
+        let center = self.frame.local(center);
+        let velocity = report.optional(
+            &format!("{path}.velocity"),
+            drop.velocity.as_ref(),
+            self.frame.dimensions,
+        );
+        self.check_inside(path, "the ball", center, DVec3::splat(drop.radius), report);
+        let grain = self.file.grains.radius;
+        let count = (drop.radius / grain).powi(self.frame.dimensions.count() as i32);
+        if count > MOST_PARTICLES as f64 {
+            report.problem(
+                format!("{path}.radius"),
+                format!("a ball of about {} grains", number(count)),
+                format!("make it smaller: at most {MOST_PARTICLES} particles"),
+            );
+            return None;
+        }
+        let region = Region::Sphere {
+            center,
+            radius: drop.radius,
+        };
+        let mut unused = ChaCha8Rng::seed_from_u64(self.file.seed);
+        let points = shapes::lattice(
+            &region,
+            self.frame.dimensions,
+            grain,
+            2.0 * grain,
+            0.0,
+            &mut unused,
+        );
+        if points.is_empty() {
+            let least = format!("give at least grains.radius, {} m", number(grain));
+            report.problem(format!("{path}.radius"), "not one grain fits", least);
+            return None;
+        }
+        Some(batch(&points, velocity))
+    }
+
+    fn emitter(&mut self, index: usize, emitter: &Emitter, end: f64, report: &mut Report) {
+        let path = format!("emitters[{index}]");
+        if let Some(twin) = self.file.emitters[..index]
+            .iter()
+            .position(|other| other.name == emitter.name)
+        {
+            report.problem(
+                format!("{path}.name"),
+                format!("emitters[{twin}] has the same name"),
+                "give each emitter its own",
+            );
+        }
+        let center = report.vector(
+            &format!("{path}.center"),
+            &emitter.center,
+            self.frame.dimensions,
+        );
+        let center = self.frame.local(center);
+        let place = format!("{path}.velocity");
+        let velocity = report.vector(&place, &emitter.velocity, self.frame.dimensions);
+        let Some(axis) = velocity.try_normalize() else {
+            report.problem(
+                place,
+                "is zero: grains would never leave the emitter",
+                "give it a speed",
+            );
+            return;
+        };
+        let grain = self.file.grains.radius;
+        let spacing = emitter.spacing.unwrap_or(DEFAULT_SPACING_RADII * grain);
+        if spacing < 2.0 * grain * (1.0 - 1e-9) {
+            report.problem(
+                format!("{path}.spacing"),
+                format!(
+                    "{} m is less than a grain's diameter: grains would overlap",
+                    number(spacing)
+                ),
+                format!("give at least {} m, or leave it out", number(2.0 * grain)),
+            );
+            return;
+        }
+        let across = (DVec3::ONE - axis * axis).max(DVec3::ZERO);
+        let extent = across.map(f64::sqrt) * (emitter.radius - grain).max(0.0) + grain;
+        self.check_inside(&path, "its first layer", center, extent, report);
+        let points = match emission::layer(
+            center,
+            axis,
+            emitter.radius - grain,
+            spacing,
+            self.frame.dimensions,
+        ) {
+            points if points.is_empty() => {
+                let least = format!("give at least grains.radius, {} m", number(grain));
+                report.problem(format!("{path}.radius"), "not one grain fits", least);
+                return;
+            }
+            points => points,
+        };
+        let every = spacing / velocity.length();
+        let flows = emission::flows(emitter.on, &self.switches[index], end);
+        let layers = |(from, to): &(f64, f64)| ((to - from) / every - 1e-9).ceil();
+        let grains = flows.iter().map(layers).sum::<f64>() * points.len() as f64;
+        if grains > MOST_PARTICLES as f64 {
+            report.problem(
+                &path,
+                format!("lets in {} grains until the run ends", number(grains)),
+                format!("make it slower or narrower: at most {MOST_PARTICLES} particles"),
+            );
+            return;
+        }
+        for flow in &flows {
+            for n in 0..layers(flow) as u32 {
+                self.actions.push(Scheduled {
+                    time: flow.0 + f64::from(n) * every,
+                    action: Action::Add(batch(&points, velocity)),
+                });
+            }
+        }
+    }
+
+    fn check_inside(
+        &self,
+        path: &str,
+        thing: &str,
+        center: DVec3,
+        extent: DVec3,
+        report: &mut Report,
+    ) {
+        for (axis, name) in self.frame.axes() {
+            let below = self.frame.min[axis] - (center - extent)[axis];
+            let above = (center + extent)[axis] - self.frame.max[axis];
+            let beyond = below.max(above);
+            if beyond > self.file.grains.radius * 1e-3 {
+                report.problem(
+                    path,
+                    format!(
+                        "{thing} reaches out of the domain along {name}, by {} m",
+                        number(beyond)
+                    ),
+                    "move or shrink it",
+                );
+            }
+        }
+    }
+}
+
+fn batch(points: &[DVec3], velocity: DVec3) -> Particles {
+    Particles {
+        position: points.iter().map(|point| point.as_vec3()).collect(),
+        velocity: vec![velocity.as_vec3(); points.len()],
+    }
+}
+
+/// A problem that names the nearest name.
+fn unknown<'a>(
+    path: &str,
+    thing: &str,
+    name: &str,
+    known: impl Iterator<Item = &'a str> + Clone,
+    report: &mut Report,
+) {
+    let mend = match known.clone().next() {
+        Some(_) => suggest(name, known),
+        None => format!("no {thing} has a name; give it one"),
+    };
+    report.problem(path, format!("no {thing} is called \"{name}\""), mend);
+}

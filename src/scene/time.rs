@@ -1,0 +1,97 @@
+//! Frames and the time step.
+
+use super::frame::Report;
+use super::text::number;
+use super::{Contact, Time, model};
+
+const MOST_FRAMES: f64 = 1e6;
+const MOST_STEPS_PER_FRAME: f64 = 1e8;
+/// Coarser steps make contacts gain energy or miss each other.
+const FEWEST_STEPS_PER_CONTACT: f64 = 20.0;
+/// Largest share of a velocity that damping may take in one explicit step.
+const LARGEST_DAMPED_SHARE: f64 = 0.5;
+
+/// Frames f = 0, 1, … show time f / fps.
+pub fn frames(time: &model::Time, report: &mut Report) -> u32 {
+    let frames = (time.duration * time.fps).round() + 1.0;
+    if frames > MOST_FRAMES {
+        report.problem(
+            "time",
+            format!("duration × fps makes {} frames", number(frames)),
+            format!(
+                "make at most {}: shorten `duration` or lower `fps`",
+                number(MOST_FRAMES)
+            ),
+        );
+    }
+    frames.min(MOST_FRAMES) as u32
+}
+
+/// The step that resolves each of `contacts` (those that hold at any time of the run) and fits frames.
+pub fn time(
+    time: &model::Time,
+    frames: u32,
+    contacts: &[Contact],
+    mass: f64,
+    report: &mut Report,
+) -> Time {
+    let shortest = contacts
+        .iter()
+        .map(|contact| contact.duration(mass))
+        .fold(f64::INFINITY, f64::min);
+    let coarsest = shortest / FEWEST_STEPS_PER_CONTACT;
+    let (mut step, mut limited_by) = match time.step {
+        Some(step) => (step, "scene's step"),
+        None => (
+            shortest / f64::from(time.steps_per_contact),
+            "contact duration",
+        ),
+    };
+    if step > coarsest * (1.0 + 1e-9) {
+        report.problem(
+            "time.step",
+            format!(
+                "{} s is too long: the shortest contact lasts {} s and needs {FEWEST_STEPS_PER_CONTACT} steps",
+                number(step),
+                number(shortest)
+            ),
+            format!("set it to at most {} s, leave it out, or make grains.spring softer", number(coarsest)),
+        );
+    }
+    let rate = contacts
+        .iter()
+        .map(|contact| contact.damping_rate(mass))
+        .fold(0.0, f64::max);
+    if step * rate > LARGEST_DAMPED_SHARE {
+        step = LARGEST_DAMPED_SHARE / rate;
+        limited_by = "damping";
+        if time.step.is_some() {
+            report.notes.push(format!(
+                "time.step was shortened to {} s, because damping is strong",
+                number(step)
+            ));
+        }
+    }
+    let frame = 1.0 / time.fps;
+    let steps_per_frame = (frame / step * (1.0 - 1e-12)).ceil();
+    if steps_per_frame > MOST_STEPS_PER_FRAME {
+        report.problem(
+            "time",
+            format!(
+                "a frame takes {} steps of {} s",
+                number(steps_per_frame),
+                number(step)
+            ),
+            "raise `fps`, make grains.spring softer, or lower grains.damping and grains.shear",
+        );
+    }
+    Time {
+        frames,
+        fps: time.fps,
+        step: frame / steps_per_frame,
+        steps_per_frame: steps_per_frame as u32,
+        integrator: time.integrator,
+        contact_duration: shortest,
+        limited_by,
+    }
+}

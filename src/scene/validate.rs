@@ -1,0 +1,218 @@
+//! From a scene file that follows the schema to a [`Scene`], or to all that is wrong with it.
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use glam::DVec3;
+
+use super::bodies::{self, MOST_PARTICLES};
+use super::coloring::{self, Known};
+use super::contact::Law;
+use super::frame::{Frame, Report};
+use super::model::{Addressing, Axis, Render, SceneFile, Storage, View};
+use super::text::number;
+use super::{Action, Dimensions, Grains, Neighbors, Scene, obstacles, schedule, time};
+use crate::error::Problem;
+
+/// Checks what the schema cannot say, completes what was left out, and turns the rest into numbers. Files named in
+/// the scene are looked up in `folder`.
+pub(super) fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Problem>> {
+    let mut report = Report::default();
+    let frame = Frame::new(&file, &mut report);
+    if !report.problems.is_empty() {
+        // Without a sound domain, what follows would only repeat its problems.
+        return Err(report.problems);
+    }
+    let law = Law::new(&file.grains, &mut report);
+    let mass = mass(&file, frame.dimensions);
+    let mut colliders = obstacles::colliders(&file, &frame, folder, &mut report);
+    // When a collider is missing for its own mistake, the others' places in the list no longer name them.
+    let all_sound = colliders.len() == file.colliders.len();
+    let obstacles = if all_sound { &colliders[..] } else { &[] };
+    let particles = bodies::fill(&file, &frame, obstacles, folder, &mut report);
+    let frames = time::frames(&file.time, &mut report);
+    let end = f64::from(frames - 1) / file.time.fps;
+    let schedule = schedule::schedule(&file, &frame, law, mass, end, &mut colliders, &mut report);
+    let mut contacts = vec![law.contact(mass)];
+    contacts.extend(&schedule.contacts);
+    let time = time::time(&file.time, frames, &contacts, mass, &mut report);
+    let capacity = capacity(&file, particles.len(), &schedule.actions, &mut report);
+    let gravity = vector(&file.gravity.0);
+    let neighbors = neighbors(&file, frame.dimensions, &mut report);
+    let render = render(&file, &frame, &mut report);
+    let known = Known {
+        file: &file,
+        frame: &frame,
+        particles: &particles,
+        capacity,
+        gravity: gravity.length(),
+    };
+    let color = coloring::coloring(&known, &mut report);
+    match color {
+        Some(color) if report.problems.is_empty() => Ok(Scene {
+            name: file.name.clone(),
+            dimensions: frame.dimensions,
+            origin: frame.origin,
+            domain: frame.domain(file.domain.restitution),
+            gravity: gravity.as_vec3(),
+            grains: Grains {
+                radius: file.grains.radius,
+                mass,
+                contact: contacts[0],
+            },
+            particles,
+            capacity,
+            colliders,
+            schedule: schedule.actions,
+            neighbors,
+            time,
+            render,
+            color,
+            notes: report.notes,
+            file,
+        }),
+        _ => Err(report.problems),
+    }
+}
+
+fn vector(numbers: &[f64]) -> DVec3 {
+    DVec3::new(
+        numbers[0],
+        numbers[1],
+        numbers.get(2).copied().unwrap_or(0.0),
+    )
+}
+
+/// Of one grain, kilograms: a ball, or a disc one metre thick.
+fn mass(file: &SceneFile, dimensions: Dimensions) -> f64 {
+    let radius = file.grains.radius;
+    file.grains.density
+        * match dimensions {
+            Dimensions::Two => PI * radius * radius,
+            Dimensions::Three => 4.0 / 3.0 * PI * radius.powi(3),
+        }
+}
+
+/// Particles when everything has happened.
+fn capacity(
+    file: &SceneFile,
+    at_start: usize,
+    schedule: &[super::Scheduled],
+    report: &mut Report,
+) -> u32 {
+    let added = schedule.iter().map(|scheduled| match &scheduled.action {
+        Action::Add(particles) => particles.len(),
+        Action::SetParameters { .. } => 0,
+    });
+    let all = (at_start + added.sum::<usize>()) as u64;
+    let comes_later =
+        !file.emitters.is_empty() || file.events.iter().any(|event| event.drop.is_some());
+    if file.bodies.is_empty() && !comes_later {
+        report.problem(
+            "",
+            "there are no grains",
+            "add a body, an emitter, or an event that drops grains",
+        );
+    } else if all == 0 && report.problems.is_empty() {
+        report.problem(
+            "",
+            "no grain comes before the run ends",
+            "let an event or emitter act earlier, or add a body",
+        );
+    }
+    if all > MOST_PARTICLES {
+        report.problem(
+            "",
+            format!("{all} particles in all"),
+            format!("stay at or below {MOST_PARTICLES}: make bodies smaller or grains larger"),
+        );
+    }
+    all.min(MOST_PARTICLES) as u32
+}
+
+fn neighbors(file: &SceneFile, dimensions: Dimensions, report: &mut Report) -> Neighbors {
+    let given = &file.neighbors;
+    if dimensions == Dimensions::Two && given.slicing_axis == Axis::Z {
+        report.problem(
+            "neighbors.slicing_axis",
+            "a 2D scene has no z axis",
+            "slice across `x` or `y`",
+        );
+    }
+    Neighbors {
+        addressing: given.addressing,
+        storage: given.storage,
+        slicing_axis: given.slicing_axis,
+        slots: given.slots,
+    }
+}
+
+/// Pixels along a side.
+const SMALLEST_FRAME: u32 = 16;
+const LARGEST_FRAME: u32 = 16_384;
+
+/// How frames look, with the camera in local coordinates.
+fn render(file: &SceneFile, frame: &Frame, report: &mut Report) -> Render {
+    let mut render = file.render.clone();
+    if render
+        .size
+        .iter()
+        .any(|side| !(SMALLEST_FRAME..=LARGEST_FRAME).contains(side))
+    {
+        let [width, height] = render.size;
+        report.problem(
+            "render.size",
+            format!("{width} × {height} pixels"),
+            format!("give {SMALLEST_FRAME} to {LARGEST_FRAME} pixels a side"),
+        );
+    }
+    if render.view != View::Scene && file.neighbors.storage != Storage::Pool {
+        report.problem(
+            "render.view",
+            "there is no index pool to show",
+            "set neighbors.storage to \"pool\", or the view to \"scene\"",
+        );
+    }
+    if render.show.slices && file.neighbors.addressing != Addressing::Sliced {
+        report.problem(
+            "render.show.slices",
+            "there are no slices to show",
+            "set neighbors.addressing to \"sliced\"",
+        );
+    }
+    if render.light.is_some_and(|light| light == [0.0; 3]) {
+        report.problem(
+            "render.light",
+            "has no direction",
+            "point it towards the light, or leave it out",
+        );
+    }
+    let camera = &mut render.camera;
+    if camera.axis.is_some() && camera.eye.is_some() {
+        report.problem(
+            "render.camera",
+            "`axis` and `eye` both say where to look from",
+            "remove one of them",
+        );
+    }
+    for (key, point) in [("eye", &mut camera.eye), ("target", &mut camera.target)] {
+        let Some(point) = point else { continue };
+        if let Some(far) = point.iter().find(|x| x.abs() > 1e9) {
+            let mend = "give numbers between -1e9 and 1e9";
+            report.problem(
+                format!("render.camera.{key}"),
+                format!("{} is too large", number(*far)),
+                mend,
+            );
+        }
+        *point = frame.local(DVec3::from(*point)).into();
+    }
+    if camera.eye.is_some() && camera.eye == camera.target {
+        report.problem(
+            "render.camera",
+            "`eye` and `target` are one point",
+            "move them apart",
+        );
+    }
+    render
+}

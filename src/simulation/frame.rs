@@ -1,0 +1,169 @@
+//! A finished frame: what a simulation hands to the sinks.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use crate::plan::{Plan, has_buffer};
+use crate::physics::layout::{Occupancy, Overflow, Sums};
+use crate::scene::column::{Column, Source};
+use crate::scene::{Dimensions, Scene};
+
+/// One moment of a run, on the host.
+#[derive(Debug, Clone)]
+pub struct Frame {
+    pub index: u32,
+    /// Seconds of simulated time.
+    pub time: f64,
+    /// Steps since the run began.
+    pub steps: u64,
+    /// Time step, seconds.
+    pub step_s: f64,
+    pub particles: u32,
+    /// RGBA, 8 bits each, sRGB, rows from the top without padding.
+    pub pixels: Option<Vec<u8>>,
+    pub statistics: Option<Statistics>,
+    /// In order of id.
+    pub columns: Vec<ColumnData>,
+    /// Label and milliseconds of the passes of one step and of the frame's own passes, where they were timed.
+    pub pass_ms: Vec<(String, f64)>,
+}
+
+/// Figures over all grains and voxels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Statistics {
+    /// Joules.
+    pub kinetic_energy: f64,
+    /// Joules, zero at the domain's lower corner.
+    pub potential_energy: f64,
+    /// m/s.
+    pub max_speed: f64,
+    /// The deepest contact, as a share of the radius.
+    pub max_overlap: f64,
+    /// Contacts as each grain sees them; one of two grains counts twice.
+    pub contacts: u64,
+    pub voxels_allocated: u32,
+    pub voxels_occupied: u32,
+    /// Voxels with one, two, three, four particles.
+    pub voxels_with: [u32; 4],
+    pub voxels_with_more: u32,
+    /// Particles that found no slot in the search for this frame.
+    pub overflow: u32,
+    /// The same, summed over all searches since the last frame.
+    pub overflow_since_last_frame: u64,
+}
+
+impl Statistics {
+    pub(super) fn new(scene: &Scene, sums: Sums, occupancy: Occupancy, overflow: Overflow) -> Self {
+        let [_, one, two, three, four, more] = occupancy.holding;
+        Self {
+            kinetic_energy: f64::from(sums.kinetic_energy),
+            potential_energy: f64::from(sums.potential_energy),
+            max_speed: f64::from(sums.max_speed),
+            max_overlap: f64::from(sums.max_overlap) / scene.grains.radius,
+            contacts: u64::from(sums.contacts),
+            voxels_allocated: occupancy.voxels,
+            voxels_occupied: one + two + three + four + more,
+            voxels_with: [one, two, three, four],
+            voxels_with_more: more,
+            overflow: overflow.now,
+            overflow_since_last_frame: u64::from(overflow.since_last_frame),
+        }
+    }
+}
+
+/// A column, in order of id.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColumnData {
+    pub name: &'static str,
+    pub values: Values,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum Values {
+    Float(Vec<f32>),
+    Unsigned(Vec<u32>),
+    /// So many numbers a particle.
+    Vector { columns: usize, values: Vec<f32> },
+    /// So many numbers a particle; positions, which stay exact far from zero.
+    Double { columns: usize, values: Vec<f64> },
+}
+
+/// Device buffers that the wanted columns are made from, in a fixed order.
+pub(super) fn sources(columns: &[Column]) -> Vec<&'static str> {
+    let mut names = Vec::new();
+    if columns.is_empty() {
+        return names;
+    }
+    names.extend(["id", "position", "velocity"]);
+    for column in columns.iter().filter(|c| c.source == Source::Measured) {
+        debug_assert!(has_buffer(column));
+        names.push(column.name);
+    }
+    names
+}
+
+/// The wanted columns in order of id, from the device's bytes by buffer name.
+pub(super) fn columns(scene: &Scene, plan: &Plan, raw: &BTreeMap<&str, &[u8]>) -> Vec<ColumnData> {
+    let Some(ids) = raw.get("id") else {
+        return Vec::new();
+    };
+    let ids: Vec<u32> = bytemuck::pod_collect_to_vec(ids);
+    let mut slot_of = vec![0usize; ids.len()];
+    for (slot, &id) in ids.iter().enumerate() {
+        slot_of[id as usize] = slot;
+    }
+    let dimensions = scene.dimensions.count();
+    // Stored vectors have two components in 2D and four in 3D.
+    let stride = match scene.dimensions {
+        Dimensions::Two => 2,
+        Dimensions::Three => 4,
+    };
+    let position: Vec<f32> = bytemuck::pod_collect_to_vec(raw["position"]);
+    let velocity: Vec<f32> = bytemuck::pod_collect_to_vec(raw["velocity"]);
+    let vector = |from: &[f32], slot: usize| {
+        let mut v = [0.0f32; 3];
+        v[..dimensions].copy_from_slice(&from[slot * stride..slot * stride + dimensions]);
+        glam::Vec3::from_array(v)
+    };
+    let global = |slot: usize| -> DVec3 { vector(&position, slot).as_dvec3() + scene.origin };
+    let floats = |of: &dyn Fn(usize) -> f64| Values::Float(slot_of.iter().map(|&slot| of(slot) as f32).collect());
+    let column = |column: &Column| {
+        let values = match column.name {
+            "position" => Values::Double {
+                columns: dimensions,
+                values: slot_of.iter().flat_map(|&s| global(s).to_array().into_iter().take(dimensions)).collect(),
+            },
+            "velocity" => Values::Vector {
+                columns: dimensions,
+                values: slot_of
+                    .iter()
+                    .flat_map(|&s| vector(&velocity, s).to_array().into_iter().take(dimensions))
+                    .collect(),
+            },
+            "id" => Values::Unsigned((0..ids.len() as u32).collect()),
+            "speed" => floats(&|s| f64::from(vector(&velocity, s).length())),
+            "x" => floats(&|s| global(s).x),
+            "y" => floats(&|s| global(s).y),
+            "z" => floats(&|s| global(s).z),
+            "velocity_x" => floats(&|s| f64::from(vector(&velocity, s).x)),
+            "velocity_y" => floats(&|s| f64::from(vector(&velocity, s).y)),
+            "velocity_z" => floats(&|s| f64::from(vector(&velocity, s).z)),
+            "slice" => {
+                let axis = scene.neighbors.slicing_axis;
+                let slice = |&s: &usize| plan.grid.slice_of(vector(&position, s), axis);
+                Values::Unsigned(slot_of.iter().map(slice).collect())
+            }
+            "contacts" => {
+                let values: Vec<u32> = bytemuck::pod_collect_to_vec(raw[column.name]);
+                Values::Unsigned(slot_of.iter().map(|&s| values[s]).collect())
+            }
+            measured => {
+                let values: Vec<f32> = bytemuck::pod_collect_to_vec(raw[measured]);
+                floats(&|s| f64::from(values[s]))
+            }
+        };
+        ColumnData { name: column.name, values }
+    };
+    plan.wanted.columns.iter().map(column).collect()
+}

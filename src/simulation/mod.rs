@@ -1,0 +1,469 @@
+//! Executes a plan: steps, frames, and what comes back of them.
+
+pub mod frame;
+mod neighbor_lists;
+mod segments;
+
+use std::collections::BTreeMap;
+
+use glam::Vec3;
+
+pub use frame::{ColumnData, Frame, Statistics, Values};
+pub use neighbor_lists::NeighborLists;
+
+use crate::error::{Casualty, Error, Result};
+use crate::gpu::readback::Ring;
+use crate::gpu::timing::Timer;
+use crate::gpu::{Buffers, Gpu, Items, Pass, PassPlan, Shader};
+use crate::physics::collider::offset_at;
+use crate::physics::dem;
+use crate::physics::layout::{Clock, Guard, Occupancy, Overflow, Parameters, Sums};
+use crate::plan::{Phase, Plan};
+use crate::render::Renderer;
+use crate::scene::{self, Action, Dimensions, Particles, Scene};
+use segments::{Segment, segments};
+
+/// Frames that may be on their way to the host while the device goes on.
+const FRAMES_UNDER_WAY: usize = 3;
+/// Steps recorded into one submission; enough to hide its cost, short enough for a display driver's watchdog.
+const STEPS_PER_SUBMISSION: u32 = 32;
+
+/// A pass and how many threads it runs.
+struct Step {
+    pass: Pass,
+    items: Items,
+}
+
+/// A scene on a device.
+pub struct Simulation {
+    gpu: Gpu,
+    scene: Scene,
+    plan: Plan,
+    buffers: Buffers,
+    start: Vec<Step>,
+    step: Vec<Step>,
+    observe: Vec<Step>,
+    renderer: Option<Renderer>,
+    ring: Ring<Pending>,
+    timer: Option<Timer>,
+    next_frame: u32,
+    /// Particles that exist.
+    count: u32,
+    gravity: Vec3,
+    contact: scene::Contact,
+    /// Events that have happened.
+    happened: usize,
+}
+
+/// A frame on its way to the host.
+struct Pending {
+    index: u32,
+    particles: u32,
+    pass_ms: Vec<(String, f64)>,
+    /// Name and bytes of each part of the staging buffer, in order.
+    parts: Vec<(&'static str, u64)>,
+}
+
+impl Simulation {
+    pub fn new(gpu: Gpu, scene: &Scene, plan: &Plan) -> Result<Self> {
+        let mut buffers = Buffers::default();
+        for buffer in &plan.buffers {
+            buffers.create(&gpu, &buffer.name, buffer.bytes, buffer.usage);
+        }
+        let renderer = match plan.wanted.view {
+            Some(view) => Some(Renderer::new(&gpu, scene, &plan.variant, &mut buffers, view)?),
+            None => None,
+        };
+        let mut shaders = BTreeMap::new();
+        let mut passes = |phase| -> Result<Vec<Step>> {
+            plan.in_phase(phase)
+                .map(|planned: &PassPlan| {
+                    if !shaders.contains_key(&planned.shader) {
+                        shaders.insert(planned.shader.clone(), Shader::load(&planned.shader, &plan.variant)?);
+                    }
+                    let pass = Pass::new(&gpu, &shaders[&planned.shader], &planned.entry, &buffers)?;
+                    Ok(Step { pass, items: planned.items })
+                })
+                .collect()
+        };
+        let simulation = Self {
+            start: passes(Phase::Start)?,
+            step: passes(Phase::Step)?,
+            observe: passes(Phase::Observe)?,
+            buffers,
+            renderer,
+            ring: Ring::new(FRAMES_UNDER_WAY),
+            timer: None,
+            next_frame: 0,
+            count: 0,
+            gravity: scene.gravity,
+            contact: scene.grains.contact,
+            happened: 0,
+            scene: scene.clone(),
+            plan: plan.clone(),
+            gpu,
+        };
+        simulation.write_constants()?;
+        Ok(simulation)
+    }
+
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Times the passes of each frame's last step, and its own; this makes the host wait for every frame.
+    pub fn set_timings(&mut self, on: bool) {
+        let passes = (self.step.len() + self.observe.len()) as u32;
+        self.timer = if on { Timer::new(&self.gpu, passes) } else { None };
+    }
+
+    /// What never changes during a run.
+    fn write_constants(&self) -> Result<()> {
+        let (gpu, buffers, scene) = (&self.gpu, &self.buffers, &self.scene);
+        let (lower, upper) = dem::guard_bounds(scene);
+        let guard = Guard { lower, upper, ..Default::default() };
+        buffers.write(gpu, "guard", 0, &[guard])?;
+        buffers.write(gpu, "grid", 0, &[self.plan.grid])?;
+        if buffers.contains("contact_walls") {
+            buffers.write(gpu, "contact_walls", 0, &[dem::contact_walls(scene)])?;
+        }
+        if buffers.contains("clamp_walls") {
+            buffers.write(gpu, "clamp_walls", 0, &[dem::clamp_walls(scene)])?;
+        }
+        if buffers.contains("measure") {
+            buffers.write(gpu, "measure", 0, &[dem::measure(scene, &self.plan.grid)])?;
+        }
+        if buffers.contains("colliders") {
+            buffers.write(gpu, "colliders", 0, &self.plan.obstacles.colliders)?;
+        }
+        if buffers.contains("distance_field") {
+            buffers.write(gpu, "distance_field", 0, &self.plan.obstacles.field)?;
+        }
+        if buffers.contains("slice_bounds") {
+            let empty = [[i32::MAX, i32::MAX, -i32::MAX, -i32::MAX]];
+            let slices = empty.repeat(self.plan.grid.slices() as usize);
+            buffers.write(gpu, "slice_bounds", 0, &slices)?;
+        }
+        Ok(())
+    }
+
+    /// What events change. Takes effect with the next submission.
+    fn write_parameters(&self, time_step: f64) -> Result<()> {
+        let parameters = Parameters {
+            gravity: [self.gravity.x, self.gravity.y, self.gravity.z, 0.0],
+            particle_count: self.count,
+            time_step: time_step as f32,
+            ..Default::default()
+        };
+        self.buffers.write(&self.gpu, "parameters", 0, &[parameters])?;
+        let contact = dem::contact_values(&self.scene, &self.contact);
+        self.buffers.write(&self.gpu, "contact", 0, &[contact])
+    }
+
+    /// Simulates up to the next frame (frame 0 is the initial state), has it observed and drawn, and sends it on its
+    /// way. Returns an older frame when enough are under way.
+    pub fn next_frame(&mut self) -> Result<Option<Frame>> {
+        let index = self.next_frame;
+        if index == 0 {
+            self.add_particles(&self.scene.particles.clone())?;
+            self.write_parameters(self.scene.time.step)?;
+        } else {
+            let time = self.scene.time;
+            for segment in segments(&self.scene, index - 1) {
+                self.begin_segment(&segment)?;
+                self.run_steps(segment.steps, segment.end == time.steps_per_frame)?;
+            }
+        }
+        self.next_frame += 1;
+        self.send_frame(index)
+    }
+
+    /// After the last frame: those that are still on their way, in order.
+    pub fn finish_frame(&mut self) -> Result<Option<Frame>> {
+        match self.ring.receive(&self.gpu)? {
+            Some((bytes, pending)) => self.receive(&bytes, pending).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// Does what is due before a segment's first step, and sets obstacles on their way.
+    fn begin_segment(&mut self, segment: &Segment) -> Result<()> {
+        let mut changed = false;
+        while self.happened < segment.events_before {
+            let action = self.scene.schedule[self.happened].action.clone();
+            self.happened += 1;
+            changed = true;
+            match action {
+                Action::SetParameters { gravity, contact } => {
+                    self.gravity = gravity;
+                    self.contact = contact;
+                }
+                Action::Add(particles) => self.add_particles(&particles)?,
+            }
+        }
+        if changed {
+            self.write_parameters(self.scene.time.step)?;
+        }
+        if self.plan.obstacles.moving {
+            let mut moved = self.plan.obstacles.colliders.clone();
+            for (collider, placed) in moved.iter_mut().zip(&self.scene.colliders) {
+                let from = offset_at(&placed.path, segment.start_time);
+                let to = offset_at(&placed.path, segment.end_time);
+                let velocity = (to - from) / (segment.end_time - segment.start_time) as f32;
+                collider.offset = [from.x, from.y, from.z, 0.0];
+                collider.velocity = [velocity.x, velocity.y, velocity.z, 0.0];
+            }
+            self.buffers.write(&self.gpu, "colliders", 0, &moved)?;
+            // The first field of `Clock`.
+            self.buffers.write(&self.gpu, "clock", 0, &[0u32])?;
+        }
+        Ok(())
+    }
+
+    /// Adds particles behind those that exist and searches neighbors anew, without moving anything.
+    fn add_particles(&mut self, particles: &Particles) -> Result<()> {
+        if particles.is_empty() {
+            return Ok(());
+        }
+        let first = self.count as usize;
+        let ids: Vec<u32> = (self.count..self.count + particles.len() as u32).collect();
+        self.buffers.write(&self.gpu, "next_id", first, &ids)?;
+        for (name, values) in [("next_position", &particles.position), ("next_velocity", &particles.velocity)] {
+            match self.scene.dimensions {
+                Dimensions::Two => {
+                    let packed: Vec<[f32; 2]> = values.iter().map(|v| [v.x, v.y]).collect();
+                    self.buffers.write(&self.gpu, name, first, &packed)?;
+                }
+                Dimensions::Three => {
+                    let packed: Vec<[f32; 4]> = values.iter().map(|v| [v.x, v.y, v.z, 0.0]).collect();
+                    self.buffers.write(&self.gpu, name, first, &packed)?;
+                }
+            }
+        }
+        let mut encoder = self.encoder("add particles");
+        let vector = dem::packed_bytes(self.scene.dimensions) * u64::from(self.count);
+        for (name, next, bytes) in [
+            ("position", "next_position", vector),
+            ("velocity", "next_velocity", vector),
+            ("acceleration", "next_acceleration", vector),
+            ("id", "next_id", 4 * u64::from(self.count)),
+        ] {
+            if bytes > 0 && self.buffers.contains(name) {
+                let (from, to) = (self.buffers.get(name, "(host)")?, self.buffers.get(next, "(host)")?);
+                encoder.copy_buffer_to_buffer(from, 0, to, 0, bytes);
+            }
+        }
+        self.count += particles.len() as u32;
+        // With a time step of zero, the passes behind the search find accelerations and leave velocities alone.
+        self.write_parameters(0.0)?;
+        let mut compute = encoder.begin_compute_pass(&Default::default());
+        for step in &self.start {
+            self.encode(step, &mut compute);
+        }
+        drop(compute);
+        self.gpu.queue.submit([encoder.finish()]);
+        Ok(())
+    }
+
+    fn run_steps(&mut self, steps: u32, times_last: bool) -> Result<()> {
+        if self.count == 0 {
+            return Ok(());
+        }
+        let mut left = steps;
+        while left > 0 {
+            let now = left.min(STEPS_PER_SUBMISSION);
+            left -= now;
+            let mut encoder = self.encoder("steps");
+            let timed = u32::from(times_last && left == 0 && self.timer.is_some());
+            {
+                let mut compute = encoder.begin_compute_pass(&Default::default());
+                for _ in 0..now - timed {
+                    for step in &self.step {
+                        self.encode(step, &mut compute);
+                    }
+                }
+            }
+            if timed == 1 {
+                let mut timer = self.timer.take();
+                self.encode_timed(&self.step, &mut encoder, timer.as_mut());
+                self.timer = timer;
+            }
+            self.gpu.queue.submit([encoder.finish()]);
+        }
+        Ok(())
+    }
+
+    fn encoder(&self, label: &str) -> wgpu::CommandEncoder {
+        let descriptor = wgpu::CommandEncoderDescriptor { label: Some(label) };
+        self.gpu.device.create_command_encoder(&descriptor)
+    }
+
+    fn encode(&self, step: &Step, compute: &mut wgpu::ComputePass<'_>) {
+        step.pass.encode(compute, Plan::threads(step.items, self.count));
+    }
+
+    /// Each pass on its own, with its time when there is a timer.
+    fn encode_timed(&self, steps: &[Step], encoder: &mut wgpu::CommandEncoder, mut timer: Option<&mut Timer>) {
+        for step in steps {
+            let writes = timer.as_mut().and_then(|timer| timer.writes(&step.pass.label));
+            let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some(&step.pass.label),
+                timestamp_writes: writes,
+            });
+            self.encode(step, &mut compute);
+        }
+    }
+
+    /// Observes, draws, and copies what is wanted into the staging ring.
+    fn send_frame(&mut self, index: u32) -> Result<Option<Frame>> {
+        let mut encoder = self.encoder("frame");
+        if let Ok(counted) = self.buffers.get("occupancy_count", "(host)") {
+            encoder.clear_buffer(counted, 0, None);
+        }
+        let mut timer = self.timer.take();
+        if self.count > 0 {
+            self.encode_timed(&self.observe, &mut encoder, timer.as_mut());
+        }
+        let mut pass_ms = Vec::new();
+        if let Some(timer) = &mut timer {
+            timer.resolve(&mut encoder);
+            let timed = std::mem::replace(&mut encoder, self.encoder("frame"));
+            self.gpu.queue.submit([timed.finish()]);
+            pass_ms = timer.take(&self.gpu)?;
+        }
+        self.timer = timer;
+        if let Some(renderer) = &self.renderer {
+            let time = f64::from(index) / self.scene.time.fps;
+            let offsets: Vec<Vec3> = self.scene.colliders.iter().map(|c| offset_at(&c.path, time)).collect();
+            renderer.draw(&self.gpu, &mut encoder, self.count, time, &offsets)?;
+        }
+
+        let parts = self.parts();
+        let bytes = parts.iter().map(|(_, bytes)| bytes).sum();
+        let pending = Pending { index, particles: self.count, pass_ms, parts: parts.clone() };
+        let buffers = &self.buffers;
+        let mut missing = None;
+        let oldest = self.ring.send(&self.gpu, encoder, bytes, pending, |encoder, staging| {
+            let mut offset = 0;
+            for (name, bytes) in &parts {
+                match buffers.get(name, "(host)") {
+                    Ok(buffer) if *bytes > 0 => {
+                        encoder.copy_buffer_to_buffer(buffer, 0, staging, offset, *bytes);
+                        offset += bytes;
+                        if *name == "overflow" {
+                            // The second field of `Overflow` counts from frame to frame.
+                            encoder.clear_buffer(buffer, 4, Some(4));
+                        }
+                    }
+                    Ok(_) => {}
+                    Err(error) => missing = Some(error),
+                }
+            }
+        })?;
+        if let Some(error) = missing {
+            return Err(error);
+        }
+        match oldest {
+            Some((bytes, pending)) => self.receive(&bytes, pending).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// Name and bytes of what a frame brings to the host.
+    fn parts(&self) -> Vec<(&'static str, u64)> {
+        let mut parts = vec![
+            ("guard", Guard::LAYOUT.size as u64),
+            ("clock", Clock::LAYOUT.size as u64),
+        ];
+        if self.plan.wanted.statistics {
+            parts.push(("sums", Sums::LAYOUT.size as u64));
+            parts.push(("occupancy_count", Occupancy::LAYOUT.size as u64));
+        }
+        if self.buffers.contains("overflow") {
+            parts.push(("overflow", Overflow::LAYOUT.size as u64));
+        }
+        for name in frame::sources(&self.plan.wanted.columns) {
+            let bytes = match name {
+                "position" | "velocity" => dem::packed_bytes(self.scene.dimensions),
+                _ => 4,
+            };
+            parts.push((name, bytes * u64::from(self.count)));
+        }
+        if self.renderer.is_some() {
+            parts.push(("frame_pixels", self.plan.picture_bytes));
+        }
+        parts
+    }
+
+    /// Makes a frame of the bytes that arrived.
+    fn receive(&self, bytes: &[u8], pending: Pending) -> Result<Frame> {
+        let mut by_name = BTreeMap::new();
+        let mut offset = 0;
+        for (name, size) in &pending.parts {
+            let end = offset + *size as usize;
+            by_name.insert(*name, &bytes[offset..end]);
+            offset = end;
+        }
+        let guard: Guard = bytemuck::pod_read_unaligned(by_name["guard"]);
+        if guard.count > 0 {
+            return Err(self.casualty(&guard));
+        }
+        let clock: Clock = bytemuck::pod_read_unaligned(by_name["clock"]);
+        let overflow = by_name.get("overflow").map_or_else(Overflow::default, |b| bytemuck::pod_read_unaligned(b));
+        let statistics = self.plan.wanted.statistics.then(|| {
+            let sums: Sums = bytemuck::pod_read_unaligned(by_name["sums"]);
+            let occupancy: Occupancy = bytemuck::pod_read_unaligned(by_name["occupancy_count"]);
+            Statistics::new(&self.scene, sums, occupancy, overflow)
+        });
+        Ok(Frame {
+            index: pending.index,
+            time: f64::from(pending.index) / self.scene.time.fps,
+            steps: u64::from(clock.step),
+            step_s: self.scene.time.step,
+            particles: pending.particles,
+            pixels: by_name.get("frame_pixels").map(|pixels| pixels.to_vec()),
+            statistics,
+            columns: frame::columns(&self.scene, &self.plan, &by_name),
+            pass_ms: pending.pass_ms,
+        })
+    }
+
+    /// The error that tells of a particle that the guard caught.
+    fn casualty(&self, guard: &Guard) -> Error {
+        let time = self.scene.time;
+        let local = Vec3::new(guard.position[0], guard.position[1], guard.position[2]);
+        let position = local.as_dvec3() + self.scene.origin;
+        let velocity = [guard.velocity[0], guard.velocity[1], guard.velocity[2]];
+        let speed = velocity.iter().map(|v| v * v).sum::<f32>().sqrt();
+        let radii = f64::from(speed) * time.step / self.scene.grains.radius;
+        let (what, likely_cause) = match guard.kind {
+            1 => (
+                "a particle's position or velocity is not a finite number",
+                format!(
+                    "the time step of {:.3e} s is too long for the contact's stiffness or damping; \
+                     lower time.step or raise time.steps_per_contact",
+                    time.step
+                ),
+            ),
+            _ => (
+                "a particle left the domain through a closed side",
+                format!(
+                    "it moved {radii:.2} radii in a step of {:.3e} s, or was pressed through the wall; \
+                     raise grains.spring, lower time.step, or open that side",
+                    time.step
+                ),
+            ),
+        };
+        Error::Guard(Box::new(Casualty {
+            frame: guard.step / time.steps_per_frame + 1,
+            step: u64::from(guard.step),
+            time: f64::from(guard.step) * time.step,
+            id: guard.id,
+            position: position.to_array(),
+            velocity,
+            count: guard.count,
+            what: what.into(),
+            likely_cause,
+        }))
+    }
+}

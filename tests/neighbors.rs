@@ -1,0 +1,185 @@
+//! Every neighbor search against brute force: every neighbor found, none twice, none missing.
+
+mod common;
+
+use glam::Vec3;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use sliceflow::plan::Wanted;
+use sliceflow::scene::{Particles, Scene};
+
+const GRIDS: [(&str, &str); 4] =
+    [("uniform", "counting"), ("uniform", "pool"), ("sliced", "counting"), ("sliced", "pool")];
+
+/// The scene of the tests with these particles at rest, through one grid.
+fn scene_of(dimensions: usize, grid: (&str, &str), axis: &str, slots: usize, points: &[Vec3]) -> Scene {
+    let mut scene = common::scene(
+        dimensions,
+        &[
+            &format!("neighbors.addressing={}", grid.0),
+            &format!("neighbors.storage={}", grid.1),
+            &format!("neighbors.slicing_axis={axis}"),
+            &format!("neighbors.slots={slots}"),
+            "colliders=[]",
+        ],
+    );
+    scene.particles = Particles { position: points.to_vec(), velocity: vec![Vec3::ZERO; points.len()] };
+    scene.capacity = points.len() as u32;
+    scene
+}
+
+/// All pairs by the one predicate: strictly nearer than the radius, in f32.
+fn brute_force(points: &[Vec3], radius: f32) -> (Vec<u32>, Vec<u32>) {
+    let mut start = vec![0];
+    let mut ids = Vec::new();
+    for (i, a) in points.iter().enumerate() {
+        for (j, b) in points.iter().enumerate() {
+            if i != j && (*b - *a).length_squared() < radius * radius {
+                ids.push(j as u32);
+            }
+        }
+        start.push(ids.len() as u32);
+    }
+    (start, ids)
+}
+
+/// Compares all grids and slicing axes on a point set.
+fn check(what: &str, dimensions: usize, points: &[Vec3]) {
+    let axes: &[&str] = if dimensions == 2 { &["x", "y"] } else { &["x", "y", "z"] };
+    for grid in GRIDS {
+        for axis in axes {
+            if grid.0 == "uniform" && *axis != "y" {
+                continue;
+            }
+            // Room for everybody: overflow has a test of its own.
+            let scene = scene_of(dimensions, grid, axis, 64, points);
+            let mut simulation = common::simulate(&scene, &Wanted::default());
+            simulation.next_frame().expect("the first search");
+            let found = simulation.neighbor_lists().expect("neighbors");
+            let (start, ids) = brute_force(points, (2.0 * scene.grains.radius) as f32);
+            let label = format!("{what}, {dimensions}D, {} × {}, axis {axis}", grid.0, grid.1);
+            assert_eq!(found.start, start, "{label}: numbers of neighbors");
+            assert_eq!(found.ids, ids, "{label}: neighbors");
+        }
+    }
+}
+
+/// Lower and upper corner of the test scene's domain, which has negative coordinates.
+fn corners(dimensions: usize) -> (Vec3, Vec3, f32) {
+    let scene = common::scene(dimensions, &[]);
+    (scene.domain.min, scene.domain.max, (2.0 * scene.grains.radius) as f32)
+}
+
+fn random(dimensions: usize, count: usize, seed: u64) -> Vec<Vec3> {
+    let (min, max, _) = corners(dimensions);
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut unit = || Vec3::new(rng.random(), rng.random(), rng.random());
+    (0..count).map(|_| min + (max - min) * unit()).collect()
+}
+
+#[test]
+fn random_points() {
+    check("random", 3, &random(3, 2000, 1));
+    check("random", 2, &random(2, 1500, 2));
+}
+
+#[test]
+fn few_points() {
+    for dimensions in [2, 3] {
+        let (min, max, reach) = corners(dimensions);
+        check("one", dimensions, &[min]);
+        check("two apart", dimensions, &[min, max]);
+        check("two together", dimensions, &[max - Vec3::X * 0.5 * reach, max]);
+    }
+}
+
+#[test]
+fn lattice_with_neighbors_at_exactly_the_radius_and_on_voxel_borders() {
+    for dimensions in [2, 3] {
+        let (min, _, reach) = corners(dimensions);
+        let grid = sliceflow::neighbors::Grid::new(&common::scene(dimensions, &[]));
+        let depth = if dimensions == 2 { 1 } else { 6 };
+        for step in [reach, grid.side] {
+            let mut points = Vec::new();
+            for x in 0..8 {
+                for y in 0..8 {
+                    for z in 0..depth {
+                        points.push(min + Vec3::new(x as f32, y as f32, z as f32) * step);
+                    }
+                }
+            }
+            check("lattice", dimensions, &points);
+            // One unit in the last place to either side of each voxel face.
+            let nudged = |up: bool| points.iter().map(move |p| p.to_array().map(|x| if up { x.next_up() } else { x.next_down() }).into());
+            let inside: Vec<Vec3> = nudged(true).collect();
+            check("nudged up", dimensions, &inside);
+            let both: Vec<Vec3> = nudged(false).chain(points.iter().copied()).filter(|p: &Vec3| dimensions == 3 || p.z == 0.0).collect();
+            check("nudged down", dimensions, &both);
+        }
+    }
+}
+
+#[test]
+fn everybody_in_one_voxel_or_at_one_point() {
+    for dimensions in [2, 3] {
+        let (min, _, reach) = corners(dimensions);
+        let mut rng = ChaCha8Rng::seed_from_u64(3);
+        let one_voxel: Vec<Vec3> =
+            (0..60).map(|_| min + reach * 0.9 * Vec3::new(rng.random(), rng.random(), if dimensions == 3 { rng.random() } else { 0.0 })).collect();
+        check("one voxel, the first", dimensions, &one_voxel);
+        check("coincident", dimensions, &[min + Vec3::X * reach; 50]);
+    }
+}
+
+#[test]
+fn points_beyond_the_domain() {
+    // Open sides let grains leave; they belong to border voxels and lose no neighbor.
+    for dimensions in [2, 3] {
+        let flat = if dimensions == 2 { Vec3::new(1.0, 1.0, 0.0) } else { Vec3::ONE };
+        let points: Vec<Vec3> = random(dimensions, 900, 4).iter().map(|p| *p * 1.6 * flat).collect();
+        check("beyond", dimensions, &points);
+    }
+}
+
+#[test]
+fn a_pool_reports_what_it_has_no_room_for() {
+    let (min, _, reach) = corners(3);
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    let mut points: Vec<Vec3> =
+        (0..11).map(|_| min + reach * 0.9 * Vec3::new(rng.random(), rng.random(), rng.random())).collect();
+    points.push(min + Vec3::ONE * 10.0 * reach);
+    for addressing in ["uniform", "sliced"] {
+        let scene = scene_of(3, (addressing, "pool"), "y", 4, &points);
+        let mut simulation = common::simulate(&scene, &Wanted { statistics: true, ..Default::default() });
+        simulation.next_frame().unwrap();
+        let statistics = simulation.finish_frame().unwrap().unwrap().statistics.unwrap();
+        assert_eq!(statistics.overflow, 7);
+        assert_eq!(statistics.overflow_since_last_frame, 7);
+        assert_eq!(statistics.voxels_with_more, 1);
+        assert_eq!(statistics.voxels_with, [1, 0, 0, 0]);
+        assert_eq!(statistics.voxels_occupied, 2);
+        let found = simulation.neighbor_lists().unwrap();
+        // The four lowest ids have the slots; they see each other, whatever order the atomics had.
+        assert!(found.ids.iter().all(|&id| id < 4), "{:?}", found.ids);
+    }
+}
+
+#[test]
+fn sliced_allocates_the_bounding_box_of_each_slice() {
+    // Harada 2007, Eq. 1 to 3, on the host.
+    let points = random(3, 300, 6);
+    let scene = scene_of(3, ("sliced", "pool"), "y", 4, &points);
+    let grid = sliceflow::neighbors::Grid::new(&scene);
+    let mut boxes = std::collections::BTreeMap::new();
+    for p in &points {
+        let voxel = |axis: usize| ((p[axis] - grid.lower[axis]) * grid.inverse_side).floor() as i32;
+        let entry = boxes.entry(voxel(1)).or_insert([i32::MAX, i32::MAX, i32::MIN, i32::MIN]);
+        *entry = [entry[0].min(voxel(0)), entry[1].min(voxel(2)), entry[2].max(voxel(0)), entry[3].max(voxel(2))];
+    }
+    let expected: i32 = boxes.values().map(|b| (b[2] - b[0] + 1) * (b[3] - b[1] + 1)).sum();
+    let mut simulation = common::simulate(&scene, &Wanted { statistics: true, ..Default::default() });
+    simulation.next_frame().unwrap();
+    let statistics = simulation.finish_frame().unwrap().unwrap().statistics.unwrap();
+    assert_eq!(statistics.voxels_allocated, expected as u32);
+    assert!(statistics.voxels_allocated < grid.capacity);
+}

@@ -1,0 +1,127 @@
+//! Every shader of every variant, without a GPU.
+
+mod common;
+
+use sliceflow::gpu::Shader;
+use sliceflow::gpu::device::Limits;
+use sliceflow::physics::layout::SHARED;
+use sliceflow::plan::{Plan, Wanted};
+use sliceflow::scene::column::{COLUMNS, Source};
+
+/// Plans that together use every flag and role.
+fn plans() -> Vec<Plan> {
+    let wanted = Wanted {
+        statistics: true,
+        columns: COLUMNS.iter().copied().filter(|c| c.source == Source::Measured).collect(),
+        view: None,
+    };
+    let mut plans = Vec::new();
+    for dimensions in [2, 3] {
+        for addressing in ["uniform", "sliced"] {
+            for storage in ["counting", "pool"] {
+                for integrator in ["symplectic_euler", "velocity_verlet"] {
+                    for axis in ["x", "y", "z"] {
+                        for (dashpot, walls) in [("full", "contact"), ("normal", "clamp")] {
+                            if dimensions == 2 && axis == "z" {
+                                continue;
+                            }
+                            let scene = common::scene(
+                                dimensions,
+                                &[
+                                    &format!("neighbors.addressing={addressing}"),
+                                    &format!("neighbors.storage={storage}"),
+                                    &format!("neighbors.slicing_axis={axis}"),
+                                    &format!("time.integrator={integrator}"),
+                                    &format!("grains.dashpot={dashpot}"),
+                                    &format!("domain.walls={walls}"),
+                                    "grains.shear=0.1",
+                                    "grains.attraction=0.1",
+                                    "grains.global_damping=0.1",
+                                ],
+                            );
+                            plans.push(Plan::new(&scene, &Limits::PROMISED, &wanted).expect("a plan"));
+                        }
+                    }
+                }
+            }
+        }
+    }
+    plans
+}
+
+#[test]
+fn every_pass_of_every_variant_is_valid_and_finds_its_buffers() {
+    let mut failures = Vec::new();
+    for plan in plans() {
+        for row in &plan.passes {
+            let pass = &row.pass;
+            match Shader::load(&pass.shader, &plan.variant).and_then(|s| s.resources(&pass.entry)) {
+                Ok(resources) => {
+                    for resource in resources {
+                        if !plan.buffers.iter().any(|b| b.name == resource.name) {
+                            failures.push(format!("{}: no buffer `{}`", pass.entry, resource.name));
+                        }
+                    }
+                }
+                Err(error) => failures.push(error.to_string()),
+            }
+        }
+    }
+    failures.sort();
+    failures.dedup();
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn every_planned_buffer_is_used_by_a_pass() {
+    for plan in plans() {
+        let mut used = Vec::new();
+        for row in &plan.passes {
+            let shader = Shader::load(&row.pass.shader, &plan.variant).unwrap();
+            used.extend(shader.resources(&row.pass.entry).unwrap().into_iter().map(|r| r.name));
+        }
+        for buffer in &plan.buffers {
+            assert!(used.contains(&buffer.name), "no pass uses `{}`", buffer.name);
+        }
+    }
+}
+
+#[test]
+fn shared_structs_agree_offset_by_offset() {
+    let mut seen = std::collections::BTreeSet::new();
+    for plan in plans() {
+        for row in &plan.passes {
+            let shader = Shader::load(&row.pass.shader, &plan.variant).unwrap();
+            for layout in shader.structs() {
+                let Some(host) = SHARED.iter().find(|s| s.name == layout.name) else {
+                    continue;
+                };
+                seen.insert(host.name);
+                let fields: Vec<_> = host
+                    .fields
+                    .iter()
+                    .filter(|(name, ..)| !name.starts_with('_'))
+                    .map(|&(name, offset, size)| (name.to_owned(), offset as u32, size as u32))
+                    .collect();
+                assert_eq!(fields, layout.fields, "struct {} of {}", layout.name, row.pass.shader);
+                assert_eq!(host.size as u32, layout.size, "size of {}", layout.name);
+            }
+        }
+    }
+    let all: std::collections::BTreeSet<_> = SHARED.iter().map(|s| s.name).collect();
+    assert_eq!(seen, all, "structs that no shader has");
+}
+
+#[test]
+fn an_error_names_the_authors_file_and_line() {
+    let mut variant = sliceflow::gpu::Variant::default();
+    variant.flag("two_dimensional", true).role("addressing", "cells/nowhere").constant("SLOTS", 4);
+    let error = Shader::load("storage/pool/query", &variant).err().expect("no such file").to_string();
+    assert!(error.contains("shaders/storage/pool/query.wgsl:2"), "{error}");
+    assert!(error.contains("shaders/cells/nowhere.wgsl"), "{error}");
+    // Without SLOTS the module parses up to the line that names it.
+    variant.constants.clear();
+    variant.role("addressing", "cells/uniform");
+    let error = Shader::load("storage/pool/query", &variant).err().expect("no SLOTS").to_string();
+    assert!(error.contains("shaders/storage/pool/query.wgsl:") && error.contains("SLOTS"), "{error}");
+}
