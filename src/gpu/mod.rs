@@ -6,6 +6,7 @@
 pub mod buffers;
 pub mod compose;
 pub mod device;
+pub mod draw;
 pub mod parts;
 pub mod pass;
 pub mod readback;
@@ -16,6 +17,7 @@ pub mod timing;
 pub use buffers::Buffers;
 pub use compose::Variant;
 pub use device::{AdapterChoice, Gpu};
+pub use draw::{Blend, Draw, DrawStyle};
 pub use parts::{BufferPlan, Items, PassPlan};
 pub use pass::Pass;
 pub use reflect::Shader;

@@ -14,8 +14,19 @@ pub struct Pass {
 
 impl Pass {
     pub fn new(gpu: &Gpu, shader: &Shader, entry: &str, buffers: &Buffers) -> Result<Self> {
+        Self::with_textures(gpu, shader, entry, buffers, &[])
+    }
+
+    /// A pass that also reads textures, given by name.
+    pub fn with_textures(
+        gpu: &Gpu,
+        shader: &Shader,
+        entry: &str,
+        buffers: &Buffers,
+        textures: &[(&str, wgpu::BindingResource<'_>)],
+    ) -> Result<Self> {
         let (layout, bind_group) =
-            shader.bind(gpu, &[entry], wgpu::ShaderStages::COMPUTE, buffers, &[])?;
+            shader.bind(gpu, &[entry], wgpu::ShaderStages::COMPUTE, buffers, textures)?;
         let module = shader.module(gpu);
         let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(entry),

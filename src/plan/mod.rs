@@ -138,19 +138,18 @@ impl Plan {
         let mut picture_bytes = 0;
         if let Some(view) = wanted.view {
             let needs = render::needs(scene, view);
-            buffers.extend(needs.buffers.into_iter().map(|(name, bytes, why)| BufferPlan {
-                name,
-                bytes,
-                usage: Default::default(),
-                why,
+            buffers.extend(needs.buffers);
+            textures.extend(needs.textures.into_iter().map(|texture| TexturePlan {
+                name: texture.name,
+                bytes: texture.bytes,
+                size: texture.size,
+                why: texture.why,
             }));
-            textures.extend(needs.textures.into_iter().map(|(name, bytes, why, size)| TexturePlan {
-                name,
-                bytes,
-                size,
-                why,
+            draws.extend(needs.draws.into_iter().map(|draw| DrawPlan {
+                label: draw.label,
+                shader: draw.shader,
+                why: draw.why,
             }));
-            draws.extend(needs.draws.into_iter().map(|(label, shader, why)| DrawPlan { label, shader, why }));
             picture_bytes = scene.render.size.iter().map(|&side| u64::from(side)).product::<u64>() * 4;
         }
 

@@ -1,11 +1,142 @@
-use crate::error::Result;
-use crate::gpu::{Buffers, Gpu, Variant};
-use crate::scene::{Scene, model::View};
+//! Pictures of the particles, straight from the simulation's buffers (the point-splat pipeline of Rojas 2013).
+//!
+//! A picture is made of few passes: shadows; what spheres surely hide; each particle's color; colliders, particles
+//! and lines into a supersampled texture; and the resolve into `frame_pixels`. Nothing comes back but pixels, which
+//! [`Overlay`] finishes on an encoder thread.
+
+mod camera;
+mod colliders;
+mod layout;
+mod light;
+mod look;
+mod needs;
+mod overlay;
+mod picture;
+mod pool_legend;
+mod stages;
+mod style;
+mod text;
+mod ticks;
+
 use glam::Vec3;
-pub struct Needs { pub buffers: Vec<(String, u64, String)>, pub textures: Vec<(String, u64, String, [u32;2])>, pub draws: Vec<(String, String, String)> }
-pub fn needs(_scene: &Scene, _view: View) -> Needs { Needs{buffers: vec![], textures: vec![], draws: vec![]} }
-pub struct Renderer;
+
+pub use camera::Sight;
+pub use layout::{Layout, PoolPlace, Rectangle};
+pub use look::POOL_COLORS;
+pub use needs::{DrawNeed, Needs, TextureNeed, needs};
+pub use overlay::{Caption, Overlay};
+pub use picture::{Picture, PoolPanel};
+pub use style::Style;
+
+use crate::error::{Error, Result};
+use crate::gpu::{Buffers, Gpu, Pass, Shader, Variant};
+use crate::scene::model::View;
+use crate::scene::{Scene, color_maps};
+use stages::Stages;
+
+/// Draws frames of one scene and view.
+pub struct Renderer {
+    scene: Scene,
+    layout: Layout,
+    style: Style,
+    /// Present where the view shows the scene.
+    stages: Option<Stages>,
+    /// Present where the view shows the index pool.
+    paint_pool: Option<Pass>,
+}
+
 impl Renderer {
-  pub fn new(_gpu: &Gpu, _scene: &Scene, _variant: &Variant, _buffers: &mut Buffers, _view: View) -> Result<Self> { Ok(Self) }
-  pub fn draw(&self, _gpu: &Gpu, _e: &mut wgpu::CommandEncoder, _count: u32, _time: f64, _offsets: &[Vec3]) -> Result<()> { Ok(()) }
+    /// `variant` carries the plan's flags and roles; buffers listed by [`needs()`] that
+    /// are not there yet are created.
+    pub fn new(gpu: &Gpu, scene: &Scene, variant: &Variant, buffers: &mut Buffers, view: View) -> Result<Self> {
+        let layout = Layout::new(scene, view);
+        let style = Style::new(scene, view);
+        let needs = needs(scene, view);
+        check_limits(gpu, &needs)?;
+        for need in &needs.buffers {
+            if !buffers.contains(&need.name) {
+                buffers.create(gpu, &need.name, need.bytes, need.usage);
+            }
+        }
+        let variant = style.variant(scene, variant);
+        let stages = match layout.scene {
+            Some(_) => {
+                let map = color_maps::find(&scene.color.map).ok_or_else(|| {
+                    Error::usage(
+                        format!("there is no color map `{}`", scene.color.map),
+                        "see `sliceflow scenes --columns`",
+                    )
+                })?;
+                let entries: Vec<u32> = (0..256)
+                    .map(|k| look::packed((map.at)(f64::from(k) / 255.0)) & 0x00ff_ffff)
+                    .collect();
+                buffers.write(gpu, "color_map", 0, &entries)?;
+                if style.colliders {
+                    buffers.write(gpu, "collider_vertex", 0, &colliders::triangles(scene))?;
+                }
+                Some(Stages::new(gpu, scene, &style, &variant, buffers, &needs)?)
+            }
+            None => None,
+        };
+        let paint_pool = match &layout.pool {
+            Some(place) => {
+                let panel = PoolPanel::new(scene, &layout, place);
+                buffers.write(gpu, "pool_panel", 0, &[panel])?;
+                let shader = Shader::load("render/pool", &variant)?;
+                Some(Pass::new(gpu, &shader, "paint_pool", buffers)?)
+            }
+            None => None,
+        };
+        Ok(Self {
+            scene: scene.clone(),
+            layout,
+            style,
+            stages,
+            paint_pool,
+        })
+    }
+
+    /// Draws particles 0..`count` into `frame_pixels`. `time` is in seconds; `offsets` has each collider's present
+    /// offset in metres.
+    pub fn draw(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        count: u32,
+        time: f64,
+        offsets: &[Vec3],
+    ) -> Result<()> {
+        if let (Some(stages), Some(place)) = (&self.stages, self.layout.scene) {
+            let picture = Picture::new(&self.scene, &self.layout, place, &self.style, time, count);
+            let looks = colliders::looks(&self.scene.colliders, offsets);
+            stages.encode(gpu, encoder, &picture, &looks);
+        }
+        if let (Some(paint), Some(place)) = (&self.paint_pool, &self.layout.pool) {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some("paint_pool"),
+                timestamp_writes: None,
+            });
+            paint.encode(&mut pass, place.panel.width * place.panel.height);
+        }
+        Ok(())
+    }
+
+    /// Width and height of the frame, pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.layout.frame
+    }
+}
+
+fn check_limits(gpu: &Gpu, needs: &Needs) -> Result<()> {
+    let most = gpu.limits.texture;
+    for texture in &needs.textures {
+        let [width, height] = texture.size;
+        if width.max(height) > most {
+            return Err(Error::Limit {
+                what: format!("`{}` needs {width}×{height} samples; the adapter draws {most}×{most}", texture.name),
+                mend: "set render.antialias or render.size lower".into(),
+            });
+        }
+    }
+    Ok(())
 }

@@ -1,0 +1,39 @@
+// Behind everything: a gradient, and the floor with shadows, fading into it.
+
+#import render/picture
+#if shadows
+#import render/shadow
+#end
+
+// Linear color at a place of the scene's rectangle, in pixels.
+fn backdrop(pixel: vec2f) -> vec3f {
+    let size = vec2f(picture.rectangle.zw);
+    let height = 1.0 - pixel.y / size.y;
+    var color = mix(picture.backdrop_low.rgb, picture.backdrop_high.rgb, smoothstep(0.0, 1.0, height));
+#if has_floor
+    let ndc = vec2f(2.0 * pixel.x / size.x - 1.0, 1.0 - 2.0 * pixel.y / size.y) - picture.lens.zw;
+    let sideways = picture.right.xyz * (ndc.x * picture.lens.x) + picture.up.xyz * (ndc.y * picture.lens.y);
+    var start = picture.eye.xyz;
+    var direction = picture.forward.xyz;
+    if picture.eye.w > 0.5 {
+        direction += sideways;
+    } else {
+        start += sideways;
+    }
+    let t = (picture.floor_height - start.y) / direction.y;
+    if direction.y < -1e-6 && t > 0.0 {
+        let point = start + t * direction;
+        let center = 0.5 * (picture.domain_min.xyz + picture.domain_max.xyz);
+        let away = length(point.xz - center.xz);
+        let fade = 1.0 - smoothstep(picture.floor_fade_begin, picture.floor_fade_end, away);
+        var shade = 0.0;
+#if shadows
+        if fade > 0.0 {
+            shade = 1.0 - soft_sunlight(point);
+        }
+#end
+        color = mix(color, picture.floor_color.rgb * (1.0 - picture.floor_color.w * shade), fade);
+    }
+#end
+    return color;
+}

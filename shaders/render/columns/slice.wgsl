@@ -1,0 +1,8 @@
+// Voxel coordinate along the slicing axis.
+
+#import render/state
+#import cells/grid
+
+fn column(i: u32) -> f32 {
+    return f32(voxel_of(unpack(position[i])).y);
+}

@@ -1,0 +1,64 @@
+// Particles as lit spheres with true depth; the vertex stage pulls them by instance (Rojas 2013, with four corners in
+// the geometry shader's place).
+
+#import render/state
+#import render/picture
+#import render/splat_quad
+#import render/lighting
+
+var<storage, read> splat: array<u32>;
+
+struct Corner {
+    @builtin(position) clip: vec4f,
+    @location(0) offset: vec3f, // on the square, in units of its half side
+    @location(1) @interpolate(flat) toward: vec3f,
+    @location(2) @interpolate(flat) center: vec3f,
+    @location(3) @interpolate(flat) albedo: vec3f,
+    @location(4) @interpolate(flat) rho_openness: vec2f,
+}
+
+@vertex
+fn place_sphere(@builtin(vertex_index) index: u32, @builtin(instance_index) i: u32) -> Corner {
+    var corner: Corner;
+    corner.clip = NOWHERE;
+    let look = splat[i];
+    if look >= 0x1000000u { // otherwise hidden
+        let center = to_3d(unpack(position[i]));
+        let quad = splat_quad(center, picture.radius);
+        let at = strip_corner(index);
+        corner.offset = quad.across * at.x + quad.up * at.y;
+        corner.clip = picture.view_projection * vec4f(center + corner.offset * quad.half, 1.0);
+        corner.toward = quad.toward;
+        corner.center = center;
+        corner.albedo = unpack_srgb(look);
+        corner.rho_openness = vec2f(quad.rho, f32(look >> 24u) / 255.0);
+    }
+    return corner;
+}
+
+struct Surface {
+    @location(0) color: vec4f,
+    @builtin(frag_depth) depth: f32,
+}
+
+@fragment
+fn shade_sphere(corner: Corner) -> Surface {
+    let k2 = dot(corner.offset, corner.offset);
+    if k2 > 1.0 {
+        discard;
+    }
+    // Where the ray meets the sphere, relative to its center and radius: see the head of splat_quad.
+    let rho = corner.rho_openness.x;
+    let stretch2 = 1.0 / (1.0 - rho * rho);
+    let s = sqrt(1.0 - k2);
+    let d = 1.0 + rho * rho * stretch2 * k2;
+    let along = (rho * stretch2 * k2 + s) / d;
+    let across = sqrt(stretch2) * (1.0 - rho * s) / d;
+    let normal = corner.toward * along + corner.offset * across;
+    let point = corner.center + picture.radius * normal;
+    let clip = picture.view_projection * vec4f(point, 1.0);
+    var surface: Surface;
+    surface.depth = clip.z / clip.w;
+    surface.color = vec4f(shade(corner.albedo, normal, corner.toward, point, corner.rho_openness.y, corner.clip.xy), 1.0);
+    return surface;
+}

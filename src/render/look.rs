@@ -1,0 +1,77 @@
+//! The look of a frame that nobody tuned: backdrops, text colors, the heatmap's colors.
+
+use crate::scene::model::Background;
+
+/// sRGB bytes.
+pub type Rgb = [u8; 3];
+
+/// What stands behind the scene and how text reads on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Look {
+    /// At the bottom and at the top of the picture.
+    pub backdrop_low: Rgb,
+    pub backdrop_high: Rgb,
+    pub floor: Rgb,
+    /// Percent of the floor's light that a shadow takes away.
+    pub shadow: u8,
+    pub text: Rgb,
+    /// Around the heatmap; differs from an empty voxel's black.
+    pub panel: Rgb,
+}
+
+pub fn look(background: Background) -> Look {
+    match background {
+        Background::Studio => Look {
+            backdrop_low: [226, 229, 233],
+            backdrop_high: [186, 194, 204],
+            floor: [232, 234, 237],
+            shadow: 62,
+            text: [38, 42, 48],
+            panel: [214, 218, 224],
+        },
+        Background::Dark => Look {
+            backdrop_low: [38, 42, 49],
+            backdrop_high: [20, 23, 28],
+            floor: [62, 67, 75],
+            shadow: 72,
+            text: [226, 229, 233],
+            panel: [44, 48, 56],
+        },
+        Background::White => Look {
+            backdrop_low: [255, 255, 255],
+            backdrop_high: [255, 255, 255],
+            floor: [255, 255, 255],
+            shadow: 50,
+            text: [24, 26, 30],
+            panel: [255, 255, 255],
+        },
+        Background::Black => Look {
+            backdrop_low: [0, 0, 0],
+            backdrop_high: [0, 0, 0],
+            floor: [34, 36, 40],
+            shadow: 85,
+            text: [226, 229, 233],
+            panel: [40, 42, 46],
+        },
+    }
+}
+
+/// Colors of voxels by the number of their indices (Harada 2007, Figure 7): none, one, two, three; then our own for
+/// four and more, and for indices that found no slot.
+pub const POOL_COLORS: [Rgb; 6] =
+    [[0, 0, 0], [255, 0, 0], [255, 255, 0], [255, 255, 255], [0, 140, 255], [255, 0, 255]];
+
+/// Linear light of an sRGB byte (IEC 61966-2-1).
+pub fn linear(byte: u8) -> f32 {
+    let c = f32::from(byte) / 255.0;
+    if c <= 0.04045 {
+        c / 12.92
+    } else {
+        ((c + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+/// Bytes in the order in which a shader packs them, alpha 255.
+pub fn packed([r, g, b]: Rgb) -> u32 {
+    u32::from_le_bytes([r, g, b, 255])
+}

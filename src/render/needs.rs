@@ -1,0 +1,122 @@
+//! What a picture needs, before there is a device: buffers, textures, draws, each with its reason.
+
+use super::colliders;
+use super::layout::Layout;
+use super::light::SHADOW_TEXELS;
+use super::picture::{Picture, PoolPanel};
+use super::style::Style;
+use crate::gpu::BufferPlan;
+use crate::scene::Scene;
+use crate::scene::model::View;
+
+/// Pixels along a side of the blocks that hide spheres; `OCCLUSION_BLOCK` in shaders.
+pub const BLOCK: u32 = 8;
+
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TextureNeed {
+    pub name: String,
+    pub size: [u32; 2],
+    pub bytes: u64,
+    pub why: String,
+}
+
+/// A draw or a compute pass of a picture, in order. Its label is its (vertex) entry point: a verb.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DrawNeed {
+    pub label: String,
+    /// File below `shaders/`, without its ending.
+    pub shader: String,
+    pub why: String,
+}
+
+#[derive(Debug, Clone, Default)]
+pub struct Needs {
+    pub buffers: Vec<BufferPlan>,
+    pub textures: Vec<TextureNeed>,
+    pub draws: Vec<DrawNeed>,
+}
+
+impl Needs {
+    fn uniform(&mut self, name: &str, bytes: usize, why: &str) {
+        self.buffers.push(BufferPlan::uniform(name, bytes, why));
+    }
+
+    fn storage(&mut self, name: &str, count: u64, element: u64, why: &str) {
+        self.buffers.push(BufferPlan::storage(name, count, element, why));
+    }
+
+    fn texture(&mut self, name: &str, size: [u32; 2], why: &str) {
+        self.textures.push(TextureNeed {
+            name: name.to_owned(),
+            size,
+            bytes: u64::from(size[0]) * u64::from(size[1]) * 4,
+            why: why.to_owned(),
+        });
+    }
+
+    fn draw(&mut self, on: bool, label: &str, shader: &str, why: &str) {
+        if on {
+            self.draws.push(DrawNeed {
+                label: label.to_owned(),
+                shader: shader.to_owned(),
+                why: why.to_owned(),
+            });
+        }
+    }
+}
+
+/// Everything that the view's pictures need besides the simulation's own buffers.
+pub fn needs(scene: &Scene, view: View) -> Needs {
+    let style = Style::new(scene, view);
+    let layout = Layout::new(scene, view);
+    let [width, height] = scene.render.size;
+    let mut needs = Needs::default();
+    let pixels = u64::from(width) * u64::from(height);
+    needs.storage("frame_pixels", pixels, 4, "the finished picture, sRGB bytes");
+    if let Some(place) = layout.scene {
+        scene_needs(&mut needs, scene, &style, [place.width, place.height]);
+    }
+    if layout.pool.is_some() {
+        needs.uniform("pool_panel", size_of::<PoolPanel>(), "place and colors of the heatmap");
+        needs.draw(true, "paint_pool", "render/pool", "the index pool, one texel a voxel");
+    }
+    needs
+}
+
+fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) {
+    needs.uniform("picture", size_of::<Picture>(), "camera, light, range of the colors");
+    needs.storage("color_map", 256, 4, "the color map, 256 entries");
+    let capacity = u64::from(scene.capacity.max(1));
+    needs.storage("splat", capacity, 4, "color and visibility of each particle");
+    if style.colliders {
+        let vertices = (colliders::triangles(scene).len() as u64).max(1);
+        needs.storage("collider_vertex", vertices, 16, "colliders as triangles");
+        let colliders = scene.colliders.len() as u64;
+        needs.storage("collider_look", colliders, 32, "where colliders are and their color");
+    }
+    if style.occlusion {
+        let blocks = size.map(|side| u64::from(side.div_ceil(BLOCK)));
+        needs.storage("block_depth", blocks[0] * blocks[1], 4, "depth that blocks of pixels hide");
+    }
+    let samples = size.map(|side| side * scene.render.antialias);
+    needs.texture("scene_color", samples, "the scene, several samples a pixel");
+    needs.texture("scene_depth", samples, "what is in front");
+    if style.shadows {
+        needs.texture("shadow_map", [SHADOW_TEXELS; 2], "depth from the light");
+    }
+    if style.occlusion {
+        needs.texture("occluder_depth", size, "depth of what surely hides");
+    }
+    needs.draw(style.shadows, "cast_splat", "render/cast_shadow", "shadows of particles");
+    needs.draw(style.shadows && style.colliders, "cast_collider", "render/colliders", "shadows of colliders");
+    needs.draw(style.occlusion, "place_occluder", "render/occluders", "what spheres surely hide");
+    needs.draw(style.occlusion, "find_block_depth", "render/occlusion", "the same, by blocks of pixels");
+    needs.draw(true, "color_splats", "render/color_splats", "values to colors");
+    needs.draw(style.colliders, "place_collider", "render/colliders", "colliders");
+    let splat = if style.spheres { "place_sphere" } else { "place_disc" };
+    needs.draw(true, splat, style.splat_shader(), "particles");
+    needs.draw(style.domain, "place_domain_edge", "render/domain_box", "the domain in red lines");
+    needs.draw(style.slices, "place_slice_side", "render/slices", "allocated slices, translucent");
+    needs.draw(style.slices, "place_slice_edge", "render/slices", "edges of the slices");
+    needs.draw(true, "resolve", "render/resolve", "samples to pixels, over the backdrop");
+}

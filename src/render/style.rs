@@ -1,0 +1,78 @@
+//! What a scene's picture is made of: decided once, read by the renderer, the plan and the tests.
+
+use super::camera::Sight;
+use super::layout::Layout;
+use super::light::{Light, SHADOW_TEXELS};
+use super::needs::BLOCK;
+use super::picture::floor_height;
+use crate::gpu::Variant;
+use crate::scene::model::{Addressing, Splat, View};
+use crate::scene::{Dimensions, Scene};
+
+/// Which parts a picture has. All are false where the view shows the pool alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Style {
+    pub three_dimensional: bool,
+    /// Lit spheres; otherwise flat discs.
+    pub spheres: bool,
+    /// Spheres and colliders cast shadows.
+    pub shadows: bool,
+    /// Spheres that others surely hide are not drawn.
+    pub occlusion: bool,
+    /// Shadows of single spheres are large enough to be seen as round.
+    pub round_shadows: bool,
+    pub floor: bool,
+    pub colliders: bool,
+    pub domain: bool,
+    pub slices: bool,
+    /// Metres, as drawn.
+    pub radius: f64,
+}
+
+impl Style {
+    pub fn new(scene: &Scene, view: View) -> Self {
+        let render = &scene.render;
+        let drawn = view != View::Pool;
+        let three_dimensional = scene.dimensions == Dimensions::Three;
+        let spheres = render.splat == Splat::Sphere;
+        let radius = scene.grains.radius * render.splat_scale;
+        let layout = Layout::new(scene, view);
+        let round_shadows = layout.scene.is_some_and(|place| {
+            let sight = Sight::new(scene, [place.width, place.height], layout.insets, 0.0);
+            radius > 3.0 * Light::new(scene, &sight, floor_height(scene)).texel
+        });
+        let solid = drawn && three_dimensional && spheres;
+        Self {
+            three_dimensional,
+            spheres,
+            shadows: solid,
+            occlusion: solid,
+            round_shadows,
+            floor: drawn && three_dimensional && render.show.floor,
+            colliders: drawn && render.show.colliders && scene.colliders.iter().any(|c| c.visible),
+            domain: drawn && render.show.domain,
+            slices: drawn && render.show.slices && scene.neighbors.addressing == Addressing::Sliced,
+            radius,
+        }
+    }
+
+    /// The plan's variant with what pictures add.
+    pub fn variant(&self, scene: &Scene, plan: &Variant) -> Variant {
+        let mut variant = plan.clone();
+        variant
+            .flag("two_dimensional", !self.three_dimensional)
+            .flag("shadows", self.shadows)
+            .flag("occlusion", self.occlusion)
+            .flag("round_shadows", self.round_shadows)
+            .flag("has_floor", self.floor)
+            .constant("SHADOW_TEXELS", SHADOW_TEXELS)
+            .constant("OCCLUSION_BLOCK", BLOCK)
+            .role("column", format!("render/columns/{}", scene.color.column.name));
+        variant
+    }
+
+    /// File of the splats.
+    pub fn splat_shader(&self) -> &'static str {
+        if self.spheres { "render/sphere" } else { "render/disc" }
+    }
+}
