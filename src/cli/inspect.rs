@@ -112,7 +112,7 @@ fn inspect(scene: &Scene, adapter: &AdapterChoice, picture: Option<&PathBuf>) ->
     let mut simulation = Simulation::new(gpu, scene, &plan)?;
     let frame = last_frame(&mut simulation, scene.time.frames)?;
     if let Some(path) = picture
-        && let Some(picture) = compose_picture(&frame, &Overlay::new(scene, scene.render.view)?)
+        && let Some(picture) = compose_picture(&frame, &Overlay::new(scene, scene.render.view)?)?
     {
         write_file(path, &encode_png(picture, path)?)?;
     }

@@ -191,11 +191,12 @@ impl fmt::Display for Report<'_> {
             ("shader", Left),
             ("why", Left),
         ]);
-        for pass in &plan.passes {
+        for row in &plan.passes {
+            let pass = &row.pass;
             passes.row([
-                pass.label.clone(),
-                when(pass.phase).to_owned(),
-                count(pass.items.into()),
+                pass.entry.clone(),
+                when(row.phase).to_owned(),
+                count(Plan::threads(pass.items, plan.capacity).into()),
                 pass.shader.clone(),
                 pass.why.clone(),
             ]);

@@ -41,7 +41,7 @@ impl Sink for Pictures {
         let path = self.folder.picture(frame.index);
         let (frame, overlay) = (frame.clone(), self.overlay.clone());
         self.workers.submit(move || {
-            let Some(picture) = compose(&frame, &overlay) else {
+            let Some(picture) = compose(&frame, &overlay)? else {
                 return Ok(());
             };
             disk::write(&path, &encode(picture, &path)?)
@@ -54,13 +54,17 @@ impl Sink for Pictures {
 }
 
 /// The finished picture of a frame that has pixels.
-pub fn compose(frame: &Frame, overlay: &Overlay) -> Option<RgbaImage> {
+pub fn compose(frame: &Frame, overlay: &Overlay) -> Result<Option<RgbaImage>> {
+    let Some(pixels) = frame.pixels.clone() else {
+        return Ok(None);
+    };
     let caption = Caption {
         frame: frame.index,
         time: frame.time,
         particles: frame.particles,
+        voxels: frame.statistics.map(|s| s.voxels_allocated),
     };
-    Some(overlay.finish(frame.pixels.clone()?, &caption))
+    overlay.finish(pixels, &caption).map(Some)
 }
 
 /// PNG bytes, compressed fast. Pictures are opaque, so alpha is left out. `path` is for the message.
