@@ -246,7 +246,7 @@ fn the_guard_names_what_was_lost() {
 #[test]
 fn grains_rest_on_every_kind_of_obstacle() {
     for dimensions in [2, 3] {
-        let scene = common::scene(dimensions, &["grains.restitution=0.2", "time.duration=2", "grains.global_damping=1"]);
+        let scene = common::scene(dimensions, &["grains.restitution=0.2", "grains.spring=100000", "time.duration=2", "grains.global_damping=1"]);
         let frame = run(&scene, 30).unwrap();
         let statistics = frame.statistics.unwrap();
         println!("{dimensions}D: {statistics:?}");

@@ -30,7 +30,7 @@ pub struct Frame {
 }
 
 /// Figures over all grains and voxels.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Statistics {
     /// Joules.
     pub kinetic_energy: f64,
