@@ -3,12 +3,16 @@
 #[path = "render/stage.rs"]
 mod stage;
 
+use std::path::Path;
 use std::time::Instant;
 
 use glam::Vec3;
 use sliceflow::gpu::{AdapterChoice, Gpu, readback};
 use sliceflow::render::{Caption, Overlay, Renderer};
 use sliceflow::scene::model::{Background, View};
+use sliceflow::plan::{Plan, Wanted};
+use sliceflow::scene::load;
+use sliceflow::simulation::Simulation;
 use sliceflow::scene::{Collider, ColliderShape, Dimensions, Particles, Scene};
 
 fn save(name: &str, gpu: &Gpu, scene: &Scene, particles: &Particles) {
@@ -73,4 +77,44 @@ fn gallery() {
     let particles = stage::heap(&few, 300);
     few.capacity = particles.len() as u32;
     save("few", &gpu, &few, &particles);
+}
+
+/// The last of `frames` frames of a scene that ships.
+fn simulated(name: &str, scene: &str, overrides: &[&str], view: View, frames: u32) {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/scenes/{scene}.json"));
+    let overrides: Vec<String> = overrides.iter().map(|&o| o.to_owned()).collect();
+    let scene = load::load(&file, &overrides).unwrap();
+    let gpu = Gpu::open(&AdapterChoice::Best, false).unwrap();
+    let wanted = Wanted { statistics: true, view: Some(view), ..Wanted::default() };
+    let plan = Plan::new(&scene, &gpu.limits, &wanted).unwrap();
+    let mut simulation = Simulation::new(gpu, &scene, &plan).unwrap();
+    let mut last = None;
+    for _ in 0..frames {
+        last = simulation.next_frame().unwrap().or(last);
+    }
+    while let Some(frame) = simulation.finish_frame().unwrap() {
+        last = Some(frame);
+    }
+    let frame = last.unwrap();
+    let voxels = frame.statistics.map(|s| s.voxels_allocated);
+    let caption = Caption { frame: frame.index, time: frame.time, particles: frame.particles, voxels };
+    let image = Overlay::new(&scene, view).unwrap().finish(frame.pixels.unwrap(), &caption).unwrap();
+    image.save(format!("out/render/{name}.png")).unwrap();
+}
+
+#[test]
+#[ignore = "writes pictures to look at"]
+fn shipped_column() {
+    simulated("column", "column_2d", &[], View::Scene, 12);
+}
+
+#[test]
+#[ignore = "writes pictures to look at"]
+fn shipped_scenes() {
+    std::fs::create_dir_all("out/render").unwrap();
+    let wide = "render.size=[1280,720]";
+    simulated("harada", "harada_figure_2_small", &[], View::Scene, 10);
+    simulated("harada_both", "harada_figure_2_small", &[wide], View::Both, 10);
+    simulated("harada_pool", "harada_figure_2_small", &[wide, "render.background=dark"], View::Pool, 10);
+    simulated("harada_3d", "harada_figure_2_small", &[wide, "render.camera={}", "render.background=studio"], View::Scene, 10);
 }
