@@ -3,6 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use serde::Serialize;
+
 use crate::error::{Error, Result};
 
 /// Which adapter to use: the best one, one by its index in `sliceflow devices`, or one by part of its name.
@@ -69,28 +71,85 @@ pub fn adapters() -> Vec<wgpu::Adapter> {
     pollster::block_on(instance.enumerate_adapters(backends))
 }
 
-/// One line an adapter, as `sliceflow devices` and error messages list them.
-pub fn describe(info: &wgpu::AdapterInfo) -> String {
-    let kind = match info.device_type {
-        wgpu::DeviceType::DiscreteGpu => "discrete",
-        wgpu::DeviceType::IntegratedGpu => "integrated",
-        wgpu::DeviceType::VirtualGpu => "virtual",
-        wgpu::DeviceType::Cpu => "software",
-        wgpu::DeviceType::Other => "other",
+/// What is told about an adapter.
+#[derive(Debug, Clone, Serialize)]
+pub struct Identity {
+    pub name: String,
+    /// `discrete`, `integrated`, `virtual`, `software` or `other`.
+    pub kind: &'static str,
+    pub backend: String,
+    pub driver: String,
+    pub driver_info: String,
+}
+
+impl Identity {
+    pub fn of(info: &wgpu::AdapterInfo) -> Self {
+        let kind = match info.device_type {
+            wgpu::DeviceType::DiscreteGpu => "discrete",
+            wgpu::DeviceType::IntegratedGpu => "integrated",
+            wgpu::DeviceType::VirtualGpu => "virtual",
+            wgpu::DeviceType::Cpu => "software",
+            wgpu::DeviceType::Other => "other",
+        };
+        Self {
+            name: info.name.clone(),
+            kind,
+            backend: info.backend.to_string(),
+            driver: info.driver.clone(),
+            driver_info: info.driver_info.clone(),
+        }
+    }
+}
+
+/// One row of `sliceflow devices`.
+#[derive(Debug, Clone, Serialize)]
+pub struct Listed {
+    pub index: usize,
+    #[serde(flatten)]
+    pub identity: Identity,
+    /// Bytes that one storage binding may have.
+    pub binding_bytes: u64,
+    /// Bytes that one buffer may have.
+    pub buffer_bytes: u64,
+    /// Whether passes can be timed.
+    pub timestamps: bool,
+}
+
+/// What [`adapters`] are, for people to choose from.
+pub fn list() -> Vec<Listed> {
+    let listed = |(index, adapter): (usize, wgpu::Adapter)| {
+        let limits = adapter.limits();
+        Listed {
+            index,
+            identity: Identity::of(&adapter.get_info()),
+            binding_bytes: limits.max_storage_buffer_binding_size,
+            buffer_bytes: limits.max_buffer_size,
+            timestamps: adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY),
+        }
     };
-    let driver = format!("{} {}", info.driver, info.driver_info);
-    format!("{} ({kind}, {}, {})", info.name, info.backend, driver.trim())
+    adapters().into_iter().enumerate().map(listed).collect()
+}
+
+/// One line an adapter, as messages name them.
+pub fn describe(info: &wgpu::AdapterInfo) -> String {
+    let Identity { name, kind, backend, driver, driver_info } = Identity::of(info);
+    format!("{name} ({kind}, {backend}, {})", format!("{driver} {driver_info}").trim())
+}
+
+/// The error for a machine without a driver.
+pub fn none_found() -> Error {
+    Error::device(
+        "no graphics adapter answers",
+        "install a Vulkan driver; for software rendering on Debian or Ubuntu: \
+         apt-get install libvulkan1 mesa-vulkan-drivers (./sliceflow does this for you). \
+         If WGPU_BACKEND is set, check that it names a backend of this machine",
+    )
 }
 
 fn choose(choice: &AdapterChoice) -> Result<wgpu::Adapter> {
     let mut found = adapters();
     if found.is_empty() {
-        return Err(Error::device(
-            "no graphics adapter answers",
-            "install a Vulkan driver; for software rendering on Debian or Ubuntu: \
-             apt-get install libvulkan1 mesa-vulkan-drivers (./sliceflow does this for you). \
-             If WGPU_BACKEND is set, check that it names a backend of this machine",
-        ));
+        return Err(none_found());
     }
     let list = || {
         let lines: Vec<String> = found

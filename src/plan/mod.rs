@@ -76,6 +76,8 @@ pub struct Plan {
     pub time_step_limited_by: String,
     pub steps_per_frame: u32,
     pub frames: u32,
+    /// Voxels of the whole domain.
+    pub domain_voxels: u64,
     /// Bytes of a frame's picture before compression.
     pub picture_bytes: u64,
     /// Bytes of a frame's particle columns.
@@ -160,13 +162,14 @@ impl Plan {
             time_step_limited_by: scene.time.limited_by.to_owned(),
             steps_per_frame: scene.time.steps_per_frame,
             frames: scene.time.frames,
+            domain_voxels: u64::from(search.grid.capacity),
             picture_bytes,
             column_bytes: wanted.columns.iter().map(|c| column_bytes(scene, c)).sum(),
             buffers,
             textures,
             passes,
             draws,
-            notes: scene.notes.iter().chain(&obstacles.notes).cloned().collect(),
+            notes: obstacles.notes.clone(),
             variant,
             grid: search.grid,
             obstacles,
@@ -242,9 +245,9 @@ impl Plan {
 
 /// Bytes of one frame of a column that is brought to the host.
 fn column_bytes(scene: &Scene, column: &Column) -> u64 {
-    let each = match (column.name, column.vector) {
-        ("position", _) => 8 * scene.dimensions.count() as u64,
-        (_, true) => 4 * scene.dimensions.count() as u64,
+    let each = match column.name {
+        "position" => 8 * scene.dimensions.count() as u64,
+        "velocity" => 4 * scene.dimensions.count() as u64,
         _ => 4,
     };
     each * u64::from(scene.capacity)

@@ -8,8 +8,6 @@ pub struct Column {
     pub unit: &'static str,
     pub about: &'static str,
     pub source: Source,
-    /// Whether it has a value along each axis; such a column is written to files but colors nothing.
-    pub vector: bool,
 }
 
 /// Where a column's values come from.
@@ -34,24 +32,11 @@ const fn column(
         unit,
         about,
         source,
-        vector: false,
-    }
-}
-
-const fn vector(name: &'static str, unit: &'static str, about: &'static str) -> Column {
-    Column {
-        name,
-        unit,
-        about,
-        source: Source::State,
-        vector: true,
     }
 }
 
 /// Every column there is.
 pub const COLUMNS: &[Column] = &[
-    vector("position", "m", "center, in the scene's coordinates"),
-    vector("velocity", "m/s", "velocity"),
     column("speed", "m/s", "magnitude of the velocity", Source::State),
     column(
         "x",
@@ -104,6 +89,12 @@ pub const COLUMNS: &[Column] = &[
         "voxel coordinate along the slicing axis",
         Source::Search,
     ),
+];
+
+/// Vectors, which particle files keep whole: one row a particle.
+pub const VECTORS: &[Column] = &[
+    column("position", "m", "where the grain's center is, in the scene's coordinates", Source::State),
+    column("velocity", "m/s", "velocity of the grain's center", Source::State),
 ];
 
 /// The column with this name.

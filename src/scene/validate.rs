@@ -9,7 +9,7 @@ use super::bodies::{self, MOST_PARTICLES};
 use super::coloring::{self, Known};
 use super::contact::Law;
 use super::frame::{Frame, Report};
-use super::model::{Addressing, Axis, Render, SceneFile, Storage, View};
+use super::model::{Addressing, Axis, Render, SceneFile};
 use super::text::number;
 use super::{Action, Dimensions, Grains, Neighbors, Scene, obstacles, schedule, time};
 use crate::error::Problem;
@@ -164,13 +164,6 @@ fn render(file: &SceneFile, frame: &Frame, report: &mut Report) -> Render {
             "render.size",
             format!("{width} × {height} pixels"),
             format!("give {SMALLEST_FRAME} to {LARGEST_FRAME} pixels a side"),
-        );
-    }
-    if render.view != View::Scene && file.neighbors.storage != Storage::Pool {
-        report.problem(
-            "render.view",
-            "there is no index pool to show",
-            "set neighbors.storage to \"pool\", or the view to \"scene\"",
         );
     }
     if render.show.slices && file.neighbors.addressing != Addressing::Sliced {

@@ -120,7 +120,8 @@ fn nearest_on(collider: Collider, x: Vector) -> Nearest {
     }
 }
 
-fn add_colliders(sum: ptr<function, ContactSum>, x: Vector, v: Vector) {
+fn with_colliders(before: ContactSum, x: Vector, v: Vector) -> ContactSum {
+    var sum = before;
     let radius = 0.5 * contact.diameter;
     for (var c = 0u; c < arrayLength(&colliders); c++) {
         let collider = colliders[c];
@@ -131,7 +132,8 @@ fn add_colliders(sum: ptr<function, ContactSum>, x: Vector, v: Vector) {
         let nearest = nearest_on(collider, x - offset);
         if nearest.distance < radius {
             let approach = first(collider.velocity) - v;
-            add_contact(sum, -nearest.outwards, radius - nearest.distance, approach, contact.wall_damping);
+            sum = with_contact(sum, -nearest.outwards, radius - nearest.distance, approach, contact.wall_damping);
         }
     }
+    return sum;
 }

@@ -32,7 +32,8 @@ fn sum_contacts(i: u32) -> ContactSum {
                     normal = Vector(0.0);
                     normal.x = select(-1.0, 1.0, i < j);
                 }
-                add_contact(&sum, normal, contact.diameter - distance, unpack(velocity[j]) - v, contact.damping);
+                let overlap = contact.diameter - distance;
+                sum = with_contact(sum, normal, overlap, unpack(velocity[j]) - v, contact.damping);
 #if attraction
                 sum.force += contact.attraction * separation;
 #end
@@ -40,10 +41,10 @@ fn sum_contacts(i: u32) -> ContactSum {
         }
     }
 #if contact_walls
-    add_walls(&sum, x, v);
+    sum = with_walls(sum, x, v);
 #end
 #if colliders
-    add_colliders(&sum, x, v);
+    sum = with_colliders(sum, x, v);
 #end
     return sum;
 }

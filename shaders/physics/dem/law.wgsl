@@ -25,27 +25,24 @@ struct ContactSum {
 #end
 }
 
-// Adds one contact of grain i. `normal` points from i to what it touches, `approach` is the other's velocity less i's.
-fn add_contact(
-    sum: ptr<function, ContactSum>,
-    normal: Vector,
-    overlap: f32,
-    approach: Vector,
-    damping: f32,
-) {
+// With one more contact of grain i. `normal` points from i to what it touches, `approach` is the other's velocity
+// less i's.
+fn with_contact(before: ContactSum, normal: Vector, overlap: f32, approach: Vector, damping: f32) -> ContactSum {
+    var sum = before;
     let spring_force = contact.spring * overlap;
     let normal_speed = dot(approach, normal);
 #if normal_dashpot
-    (*sum).force += (damping * normal_speed - spring_force) * normal;
+    sum.force += (damping * normal_speed - spring_force) * normal;
 #else
-    (*sum).force += damping * approach - spring_force * normal;
+    sum.force += damping * approach - spring_force * normal;
 #end
 #if shear
-    (*sum).force += contact.shear * (approach - normal_speed * normal);
+    sum.force += contact.shear * (approach - normal_speed * normal);
 #end
 #if measuring
-    (*sum).contacts += 1u;
-    (*sum).normal_force += abs(spring_force - damping * normal_speed);
-    (*sum).overlap = max((*sum).overlap, overlap);
+    sum.contacts += u32(overlap > 0.0);
+    sum.normal_force += abs(spring_force - damping * normal_speed);
+    sum.overlap = max(sum.overlap, overlap);
 #end
+    return sum;
 }

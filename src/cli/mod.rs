@@ -1,0 +1,76 @@
+//! The command line: one file a command. Data goes to standard output, everything else to standard error.
+
+mod devices;
+mod grid;
+mod inspect;
+mod plan;
+mod run;
+mod run_args;
+mod scene_args;
+mod scenes;
+mod schema;
+mod stdout;
+mod table;
+
+use clap::{Parser, Subcommand};
+
+use crate::error::Result;
+
+/// Offline particle simulator and renderer: from a scene file to an animation, on any GPU or none
+#[derive(Parser)]
+#[command(version, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sliceflow scenes                              what ships
+  sliceflow run green_cube                      frames into out/green_cube
+  sliceflow run green_cube --set grains.spring=2e5 --out out/stiff
+  sliceflow plan green_cube                     what would run, and what it needs";
+
+#[derive(Subcommand)]
+enum Command {
+    Run(run::Args),
+    Plan(plan::Args),
+    Inspect(inspect::Args),
+    Scenes(scenes::Args),
+    Schema(schema::Args),
+    Devices(devices::Args),
+}
+
+/// Does what the program's arguments say. Ends the program after `--help`, and when they make no sense.
+pub fn main() -> Result<()> {
+    match Cli::parse().command {
+        Command::Run(args) => run::main(&args),
+        Command::Plan(args) => plan::main(&args),
+        Command::Inspect(args) => inspect::main(&args),
+        Command::Scenes(args) => scenes::main(&args),
+        Command::Schema(args) => schema::main(&args),
+        Command::Devices(args) => devices::main(&args),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory as _;
+
+    #[test]
+    fn arguments_are_consistent() {
+        super::Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn every_command_has_examples() {
+        for command in super::Cli::command().get_subcommands() {
+            let help = command
+                .get_after_help()
+                .map(ToString::to_string)
+                .unwrap_or_default();
+            let example = format!("sliceflow {}", command.get_name());
+            assert!(help.contains(&example), "{} has no example", command.get_name());
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! `sliceflow plan`
+
+use std::fmt;
+
+use serde_json::{Value, json};
+
+use super::run_args::RunArgs;
+use super::table::Align::{Left, Right};
+use super::table::Table;
+use super::{grid, stdout};
+use crate::error::Result;
+use crate::gpu::device::{self, Limits, describe};
+use crate::gpu::{AdapterChoice, Gpu};
+use crate::output::text::{bytes, count};
+use crate::output::{Outputs, disk_bytes};
+use crate::plan::{Phase, Plan};
+use crate::scene::Scene;
+
+/// Says what a run would do: buffers, passes, time step, memory, disk
+///
+/// Nothing is simulated. On a machine without an adapter, the plan is made for what WebGPU promises everywhere.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    #[command(flatten)]
+    run: RunArgs,
+    /// Adapter to plan for, by index or part of its name (see `sliceflow devices`)
+    #[arg(long, value_name = "NAME|INDEX")]
+    adapter: Option<String>,
+    /// Prints JSON
+    #[arg(long)]
+    json: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sliceflow plan green_cube
+  sliceflow plan harada_figure_2 --grid sliced-pool --view both
+  sliceflow plan my_scene.json --json | jq '.plan.buffers[].name'";
+
+pub fn main(args: &Args) -> Result<()> {
+    let scene = args.run.load()?;
+    let adapter = args
+        .adapter
+        .as_deref()
+        .map(AdapterChoice::parse)
+        .unwrap_or_default();
+    let report = Report::new(&scene, &args.run.outputs()?, &adapter)?;
+    if args.json {
+        stdout::print_json(&report.json())
+    } else {
+        stdout::print(&report.to_string())
+    }
+}
+
+/// A plan with what it is made for.
+pub struct Report<'a> {
+    scene: &'a Scene,
+    plan: Plan,
+    /// `None`: the machine has none.
+    adapter: Option<String>,
+    limits: Limits,
+    disk_bytes: u64,
+}
+
+impl<'a> Report<'a> {
+    pub fn new(scene: &'a Scene, outputs: &Outputs, choice: &AdapterChoice) -> Result<Self> {
+        let (adapter, limits) = if *choice == AdapterChoice::Best && device::adapters().is_empty() {
+            (None, Limits::PROMISED)
+        } else {
+            let gpu = Gpu::open(choice, false)?;
+            (Some(describe(&gpu.adapter)), gpu.limits)
+        };
+        Ok(Self {
+            scene,
+            plan: Plan::new(scene, &limits, &outputs.wanted(scene))?,
+            adapter,
+            limits,
+            disk_bytes: disk_bytes(scene, outputs),
+        })
+    }
+
+    fn steps(&self) -> u64 {
+        let time = &self.scene.time;
+        u64::from(time.frames.saturating_sub(1)) * u64::from(time.steps_per_frame)
+    }
+
+    fn largest_buffer(&self) -> u64 {
+        self.plan
+            .buffers
+            .iter()
+            .map(|buffer| buffer.bytes)
+            .max()
+            .unwrap_or(0)
+    }
+
+    fn json(&self) -> Value {
+        let Self { scene, limits, .. } = self;
+        json!({
+            "scene": scene.name,
+            "adapter": self.adapter,
+            "limits": {
+                "binding_bytes": limits.binding,
+                "buffer_bytes": limits.buffer,
+                "groups": limits.groups,
+                "texture_pixels": limits.texture,
+            },
+            "dimensions": scene.dimensions.count(),
+            "particles_at_start": scene.particles.len(),
+            "particles": scene.capacity,
+            "grid": grid::name(&scene.neighbors),
+            "frames": scene.time.frames,
+            "fps": scene.time.fps,
+            "step_s": scene.time.step,
+            "step_limited_by": scene.time.limited_by,
+            "contact_duration_s": scene.time.contact_duration,
+            "steps_per_frame": scene.time.steps_per_frame,
+            "steps": self.steps(),
+            "memory_bytes": self.plan.bytes(),
+            "disk_bytes_estimate": self.disk_bytes,
+            "notes": scene.notes,
+            "plan": self.plan,
+        })
+    }
+}
+
+impl fmt::Display for Report<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            scene, plan, limits, ..
+        } = self;
+        let time = &scene.time;
+        let adapter = self
+            .adapter
+            .as_deref()
+            .unwrap_or("none here; planned for what WebGPU promises everywhere");
+        writeln!(f, "scene      {}, {}D", scene.name, scene.dimensions.count())?;
+        write!(f, "particles  {}", count(scene.capacity.into()))?;
+        match scene.particles.len() as u64 {
+            start if start == u64::from(scene.capacity) => writeln!(f)?,
+            start => writeln!(f, " at the end, {} at the start", count(start))?,
+        }
+        writeln!(f, "grid       {}", grid::name(&scene.neighbors))?;
+        writeln!(
+            f,
+            "step       {:.4e} s, limited by the {}; the shortest contact lasts {:.4e} s",
+            time.step, time.limited_by, time.contact_duration
+        )?;
+        writeln!(
+            f,
+            "frames     {} at {} a simulated second, {} steps a frame, {} steps in all",
+            count(time.frames.into()),
+            time.fps,
+            count(time.steps_per_frame.into()),
+            count(self.steps())
+        )?;
+        writeln!(f, "adapter    {adapter}")?;
+        writeln!(
+            f,
+            "memory     {}; the largest buffer has {} of the {} that the adapter binds",
+            bytes(plan.bytes()),
+            bytes(self.largest_buffer()),
+            bytes(limits.binding)
+        )?;
+        writeln!(f, "disk       about {}", bytes(self.disk_bytes))?;
+
+        let mut buffers = Table::new([("buffer", Left), ("size", Right), ("why", Left)]);
+        for buffer in &plan.buffers {
+            buffers.row([buffer.name.clone(), bytes(buffer.bytes), buffer.why.clone()]);
+        }
+        let mut textures = Table::new([
+            ("texture", Left),
+            ("size", Right),
+            ("pixels", Right),
+            ("why", Left),
+        ]);
+        for texture in &plan.textures {
+            let [width, height] = texture.size;
+            let pixels = format!("{width}×{height}");
+            textures.row([
+                texture.name.clone(),
+                bytes(texture.bytes),
+                pixels,
+                texture.why.clone(),
+            ]);
+        }
+        let mut passes = Table::new([
+            ("pass", Left),
+            ("when", Left),
+            ("items", Right),
+            ("shader", Left),
+            ("why", Left),
+        ]);
+        for row in &plan.passes {
+            let pass = &row.pass;
+            passes.row([
+                pass.entry.clone(),
+                when(row.phase).to_owned(),
+                count(Plan::threads(pass.items, plan.capacity).into()),
+                pass.shader.clone(),
+                pass.why.clone(),
+            ]);
+        }
+        let mut draws = Table::new([("draw", Left), ("shader", Left), ("why", Left)]);
+        for draw in &plan.draws {
+            draws.row([draw.label.clone(), draw.shader.clone(), draw.why.clone()]);
+        }
+        for table in [buffers, textures, passes, draws] {
+            if !table.is_empty() {
+                write!(f, "\n{table}")?;
+            }
+        }
+        for note in scene.notes.iter().chain(&plan.notes) {
+            write!(f, "\nnote: {note}")?;
+        }
+        if !scene.notes.is_empty() || !plan.notes.is_empty() {
+            writeln!(f)?;
+        }
+        Ok(())
+    }
+}
+
+fn when(phase: Phase) -> &'static str {
+    match phase {
+        Phase::Start => "at the start",
+        Phase::Step => "each step",
+        Phase::Observe => "each frame",
+    }
+}

@@ -1,0 +1,97 @@
+//! `sliceflow run`
+
+use std::path::PathBuf;
+
+use super::run_args::RunArgs;
+use super::{plan, stdout};
+use crate::error::Result;
+use crate::gpu::AdapterChoice;
+use crate::output::{self, Settings, progress};
+
+/// Simulates a scene and writes its frames
+///
+/// Writes pictures (frame_000000.png …), statistics (stats.jsonl), particle files on request, and a manifest that says
+/// what everything is (run.json). Ctrl-C ends the run after the frames under way.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    #[command(flatten)]
+    run: RunArgs,
+    /// Folder to write [default: out/NAME OF THE SCENE]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replaces an earlier run in that folder
+    #[arg(long)]
+    force: bool,
+    /// Adapter, by index or part of its name (see `sliceflow devices`)
+    #[arg(long, value_name = "NAME|INDEX")]
+    adapter: Option<String>,
+    /// Times every pass on the device
+    #[arg(long)]
+    timings: bool,
+    /// How progress is shown
+    #[arg(long, value_name = "STYLE", default_value = "bar")]
+    progress: progress::Style,
+    /// Prints the plan instead of running it
+    #[arg(long)]
+    dry_run: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sliceflow run green_cube
+  sliceflow run my_scene.json --out out/trial --frames 60 --size 1920x1080
+  sliceflow run harada_figure_2 --view both --grid sliced-pool
+  sliceflow run column_2d --particles npy --columns position,velocity,id --no-pictures
+  sliceflow run green_cube --set grains.restitution=0.9 --set 'gravity=[0,-1.62,0]' --force";
+
+pub fn main(args: &Args) -> Result<()> {
+    let scene = args.run.load()?;
+    let outputs = args.run.outputs()?;
+    let adapter = args
+        .adapter
+        .as_deref()
+        .map(AdapterChoice::parse)
+        .unwrap_or_default();
+    if args.dry_run {
+        let report = plan::Report::new(&scene, &outputs, &adapter)?;
+        return stdout::print(&report.to_string());
+    }
+    let folder = args
+        .out
+        .clone()
+        .unwrap_or_else(|| PathBuf::from("out").join(file_name(&scene.name)));
+    output::run(
+        &scene,
+        &Settings {
+            folder,
+            force: args.force,
+            outputs,
+            timings: args.timings,
+            adapter,
+            progress: args.progress,
+            command_line: std::env::args().collect(),
+        },
+    )
+}
+
+/// A scene's name as the name of a folder anywhere.
+fn file_name(name: &str) -> String {
+    let keep = |c: char| {
+        if c.is_alphanumeric() || matches!(c, '-' | '_') {
+            c
+        } else {
+            '_'
+        }
+    };
+    name.chars().map(keep).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn names_become_folders() {
+        assert_eq!(super::file_name("green_cube"), "green_cube");
+        assert_eq!(super::file_name("../My scene: 2"), "___My_scene__2");
+    }
+}

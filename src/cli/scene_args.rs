@@ -1,0 +1,158 @@
+//! Arguments that name a scene and change it. All of them become overrides, so the scene stays the one source of what
+//! is run.
+
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+use super::grid;
+use crate::error::Result;
+use crate::scene::{Scene, library, load, model, set};
+
+#[derive(clap::Args)]
+pub struct SceneArgs {
+    /// Scene file, or name of a scene that ships (see `sliceflow scenes`)
+    scene: PathBuf,
+    /// Changes a key of the scene: grains.radius=0.01, bodies[0].velocity=[0,1,0] (repeatable)
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Frames per simulated second
+    #[arg(long, value_name = "F")]
+    fps: Option<f64>,
+    /// Seed of every random choice
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Size of pictures, pixels
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<[u32; 2]>,
+}
+
+/// Choices that not every command leaves to the user.
+#[derive(Default)]
+pub struct Choices<'a> {
+    /// Frames to make, the first state included.
+    pub frames: Option<u32>,
+    pub grid: Option<&'a str>,
+    pub view: Option<&'a str>,
+}
+
+impl SceneArgs {
+    pub fn load(&self, choices: &Choices) -> Result<Scene> {
+        load::load(&self.scene, &self.overrides(choices)?)
+    }
+
+    fn overrides(&self, choices: &Choices) -> Result<Vec<String>> {
+        let mut overrides = self.set.clone();
+        let mut put = |key: &str, value: Option<String>| {
+            overrides.extend(value.map(|value| format!("{key}={value}")));
+        };
+        put("time.fps", self.fps.map(|fps| fps.to_string()));
+        put("seed", self.seed.map(|seed| seed.to_string()));
+        put(
+            "render.size",
+            self.size.map(|[width, height]| format!("[{width},{height}]")),
+        );
+        put("render.view", choices.view.map(str::to_owned));
+        if let Some(name) = choices.grid {
+            overrides.extend(grid::overrides(name)?);
+        }
+        if let Some(frames) = choices.frames {
+            let duration = duration(frames, self.written_fps(&overrides));
+            overrides.push(format!("time.duration={duration:e}"));
+        }
+        Ok(overrides)
+    }
+
+    /// The scene's frames per second before it is checked: a scene counts time in seconds, `--frames` in frames.
+    /// Whatever is wrong with the scene is told when it is loaded.
+    fn written_fps(&self, overrides: &[String]) -> f64 {
+        let text = match std::fs::read_to_string(&self.scene) {
+            Ok(text) => text,
+            Err(_) => library::find(&self.scene.to_string_lossy())
+                .unwrap_or_default()
+                .to_owned(),
+        };
+        let mut scene: Value = serde_json::from_str(&text).unwrap_or_default();
+        for one in overrides {
+            // A broken override is told by `load`.
+            let _ = set::apply(&mut scene, one);
+        }
+        let fps = scene["time"]["fps"].as_f64().filter(|&fps| fps > 0.0);
+        fps.unwrap_or(model::Time::default().fps)
+    }
+}
+
+/// Seconds whose frames, the first state included, are `frames` many.
+fn duration(frames: u32, fps: f64) -> f64 {
+    // One frame is the first state alone; a scene's duration is never zero.
+    f64::from(frames.saturating_sub(1)).max(1e-3) / fps
+}
+
+fn size(text: &str) -> std::result::Result<[u32; 2], String> {
+    let sides = text
+        .split_once(['x', 'X', '×'])
+        .map(|(w, h)| (w.trim().parse(), h.trim().parse()));
+    match sides {
+        Some((Ok(width), Ok(height))) if width > 0 && height > 0 => Ok([width, height]),
+        _ => Err("write width and height in pixels: 1280x720".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn args(set: &[&str]) -> SceneArgs {
+        SceneArgs {
+            scene: "column_2d".into(),
+            set: set.iter().map(|&one| one.to_owned()).collect(),
+            fps: None,
+            seed: None,
+            size: None,
+        }
+    }
+
+    #[test]
+    fn frames_are_as_many_as_asked_for() {
+        for (set, frames) in [
+            (&[][..], 1),
+            (&[], 2),
+            (&["time.fps=24"], 30),
+            (&["time.fps=59.94"], 600),
+        ] {
+            let choices = Choices {
+                frames: Some(frames),
+                ..Choices::default()
+            };
+            assert_eq!(args(set).load(&choices).unwrap().time.frames, frames, "{set:?}");
+        }
+    }
+
+    #[test]
+    fn flags_win_over_set() {
+        let mut args = args(&["time.fps=24", "seed=1"]);
+        args.fps = Some(60.0);
+        args.seed = Some(7);
+        args.size = Some([320, 200]);
+        let choices = Choices {
+            grid: Some("sliced-pool"),
+            view: Some("both"),
+            ..Choices::default()
+        };
+        let scene = args.load(&choices).unwrap();
+        assert_eq!(
+            (scene.time.fps, scene.file.seed, scene.render.size),
+            (60.0, 7, [320, 200])
+        );
+        assert_eq!(grid::name(&scene.neighbors), "sliced-pool");
+        assert_eq!(scene.render.view, model::View::Both);
+    }
+
+    #[test]
+    fn sizes() {
+        assert_eq!(size("1280x720"), Ok([1280, 720]));
+        for wrong in ["1280", "x720", "0x10", "-1x5", "axb"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Signs in the statistics that a run's numbers should not be trusted.
+
+use super::text::count;
+use crate::simulation::frame::{Frame, Statistics};
+
+/// Deepest overlap, as a share of the radius, that a soft-sphere contact should have.
+const LARGEST_OVERLAP: f64 = 0.2;
+
+/// Notices each sign once, and sums up at the end.
+#[derive(Debug, Default)]
+pub struct Health {
+    overflow: u64,
+    overlap_told: bool,
+}
+
+impl Health {
+    /// Warnings that this frame is the first to deserve.
+    pub fn check(&mut self, frame: &Frame, statistics: &Statistics) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let overflow = statistics
+            .overflow_since_last_frame
+            .max(u64::from(statistics.overflow));
+        if overflow > 0 && self.overflow == 0 {
+            warnings.push(format!(
+                "frame {}: {} times a grain found its voxel full, so contacts are missed; give voxels more room with \
+                 --set neighbors.slots=8, or use --grid uniform-counting",
+                frame.index,
+                count(overflow)
+            ));
+        }
+        self.overflow += overflow;
+        if statistics.max_overlap > LARGEST_OVERLAP && !self.overlap_told {
+            self.overlap_told = true;
+            warnings.push(format!(
+                "frame {}: grains overlap by {:.0} % of their radius; raise grains.spring for stiffer grains",
+                frame.index,
+                100.0 * statistics.max_overlap
+            ));
+        }
+        warnings
+    }
+
+    /// What to say when the run is over.
+    pub fn summary(&self) -> Option<String> {
+        (self.overflow > 0).then(|| {
+            format!(
+                "during the run, {} times a grain found its voxel full",
+                count(self.overflow)
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_sign_is_told_once() {
+        let frame = Frame {
+            index: 7,
+            time: 0.0,
+            steps: 0,
+            step_s: 1e-3,
+            particles: 1,
+            pixels: None,
+            statistics: None,
+            columns: Vec::new(),
+            pass_ms: Vec::new(),
+        };
+        let well = Statistics {
+            max_overlap: 0.05,
+            ..Default::default()
+        };
+        let ill = Statistics {
+            max_overlap: 0.3,
+            overflow_since_last_frame: 40,
+            ..Default::default()
+        };
+        let mut health = Health::default();
+        assert!(health.check(&frame, &well).is_empty());
+        assert_eq!(health.summary(), None);
+        let warnings = health.check(&frame, &ill);
+        assert!(
+            warnings[0].contains("40 times") && warnings[1].contains("30 %"),
+            "{warnings:?}"
+        );
+        assert!(health.check(&frame, &ill).is_empty());
+        assert!(health.summary().unwrap().contains("80 times"));
+    }
+}

@@ -1,0 +1,120 @@
+//! `run.json`: what was run, on what, with which result, and what every file beside it is.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+use super::tally::Tally;
+use super::{clock, disk};
+use crate::error::{Error, Result};
+use crate::gpu::Gpu;
+use crate::gpu::device::Identity;
+use crate::plan::Plan;
+use crate::scene::Scene;
+use crate::scene::model::SceneFile;
+
+#[derive(Serialize)]
+pub struct Manifest<'a> {
+    pub program: &'static str,
+    pub version: &'static str,
+    #[serde(flatten)]
+    pub status: Status,
+    pub command_line: &'a [String],
+    /// UTC, RFC 3339.
+    pub started: String,
+    /// UTC, RFC 3339; null while the run goes on.
+    pub finished: Option<String>,
+    #[serde(flatten)]
+    pub tally: Tally,
+    pub files: Vec<Files>,
+    pub adapter: Identity,
+    pub particles: u32,
+    pub seed: u64,
+    pub fps: f64,
+    pub step_s: f64,
+    pub steps_per_frame: u32,
+    pub step_limited_by: &'static str,
+    /// What was decided or dropped while the scene was read.
+    pub notes: &'a [String],
+    /// Of `scene`, as JSON without spaces.
+    pub scene_sha256: String,
+    pub scene: &'a SceneFile,
+    pub plan: &'a Plan,
+    #[serde(skip)]
+    path: PathBuf,
+}
+
+#[derive(Debug, Clone, Serialize)]
+#[serde(tag = "status", rename_all = "snake_case")]
+pub enum Status {
+    Running,
+    Finished,
+    Interrupted,
+    Failed { message: String },
+}
+
+/// One kind of file.
+#[derive(Debug, Serialize)]
+pub struct Files {
+    pub name: &'static str,
+    pub about: String,
+}
+
+impl<'a> Manifest<'a> {
+    pub fn new(
+        path: PathBuf,
+        scene: &'a Scene,
+        plan: &'a Plan,
+        gpu: &Gpu,
+        command_line: &'a [String],
+        files: Vec<Files>,
+    ) -> Self {
+        let text = serde_json::to_vec(&scene.file).expect("a validated scene has text keys");
+        Self {
+            program: env!("CARGO_PKG_NAME"),
+            version: env!("CARGO_PKG_VERSION"),
+            status: Status::Running,
+            command_line,
+            started: clock::now(),
+            finished: None,
+            tally: Tally::start(scene.time.frames),
+            files,
+            adapter: Identity::of(&gpu.adapter),
+            particles: scene.capacity,
+            seed: scene.file.seed,
+            fps: scene.time.fps,
+            step_s: scene.time.step,
+            steps_per_frame: scene.time.steps_per_frame,
+            step_limited_by: scene.time.limited_by,
+            notes: &scene.notes,
+            scene_sha256: Sha256::digest(text)
+                .iter()
+                .map(|byte| format!("{byte:02x}"))
+                .collect(),
+            scene: &scene.file,
+            plan,
+            path,
+        }
+    }
+
+    pub fn write(&self) -> Result<()> {
+        let mut text = serde_json::to_vec_pretty(self).expect("keys are text");
+        text.push(b'\n');
+        disk::write(&self.path, &text)
+    }
+
+    /// Writes how the run ended.
+    pub fn close(&mut self, tally: Tally, outcome: &Result<()>) -> Result<()> {
+        self.tally = tally;
+        self.finished = Some(clock::now());
+        self.status = match outcome {
+            Ok(()) => Status::Finished,
+            Err(Error::Interrupted { .. }) => Status::Interrupted,
+            Err(error) => Status::Failed {
+                message: error.to_string(),
+            },
+        };
+        self.write()
+    }
+}

@@ -1,0 +1,132 @@
+//! How a run is going, on standard error.
+
+use std::io::{IsTerminal as _, Write as _, stderr};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::{Value, json};
+
+use super::tally::Tally;
+use super::text::{seconds, short};
+use crate::simulation::frame::Frame;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
+pub enum Style {
+    /// A bar; lines where standard error is not a terminal.
+    #[default]
+    Bar,
+    /// Lines for people and logs.
+    Plain,
+    /// One JSON object a line, for programs.
+    Json,
+}
+
+/// Lines come no faster than this, so that logs stay short.
+const LINE_PAUSE: Duration = Duration::from_secs(5);
+
+/// Shows frames as they finish, and notes and warnings between them.
+pub struct Progress {
+    show: Show,
+}
+
+enum Show {
+    Bar(ProgressBar),
+    Plain { last: Option<Instant> },
+    Json,
+}
+
+impl Progress {
+    pub fn new(style: Style, frames: u32) -> Self {
+        let show = match style {
+            Style::Json => Show::Json,
+            Style::Bar if stderr().is_terminal() => Show::Bar(bar(frames)),
+            Style::Bar | Style::Plain => Show::Plain { last: None },
+        };
+        Self { show }
+    }
+
+    /// Something to know.
+    pub fn note(&self, text: &str) {
+        self.tell("note", text);
+    }
+
+    /// Something to mind.
+    pub fn warn(&self, text: &str) {
+        self.tell("warning", text);
+    }
+
+    pub fn frame(&mut self, frame: &Frame, tally: &Tally) {
+        let remaining_s = tally.remaining_s();
+        let rate = short(tally.particle_steps_per_s);
+        match &mut self.show {
+            Show::Bar(bar) => {
+                bar.set_position(u64::from(tally.frames_done));
+                bar.set_message(format!("{rate} particle steps/s, {} left", seconds(remaining_s)));
+            }
+            Show::Plain { last } => {
+                let is_last = tally.frames_done == tally.frames;
+                if is_last || last.is_none_or(|last| last.elapsed() >= LINE_PAUSE) {
+                    *last = Some(Instant::now());
+                    line(&format!(
+                        "frame {} of {}, t = {:.3} s, {rate} particle steps/s, {} left",
+                        tally.frames_done,
+                        tally.frames,
+                        frame.time,
+                        seconds(remaining_s)
+                    ));
+                }
+            }
+            Show::Json => event(json!({
+                "event": "frame",
+                "frame": frame.index,
+                "frames": tally.frames,
+                "time_s": frame.time,
+                "steps": frame.steps,
+                "particles": frame.particles,
+                "wall_s": tally.wall_s,
+                "particle_steps_per_s": tally.particle_steps_per_s,
+                "remaining_s": remaining_s,
+            })),
+        }
+    }
+
+    /// Ends the display; `text` says what there is now.
+    pub fn finish(&self, text: &str, tally: &Tally) {
+        self.clear();
+        match &self.show {
+            Show::Bar(_) | Show::Plain { .. } => line(text),
+            Show::Json => event(json!({ "event": "end", "message": text, "result": tally })),
+        }
+    }
+
+    /// Takes the bar away.
+    pub fn clear(&self) {
+        if let Show::Bar(bar) = &self.show {
+            bar.finish_and_clear();
+        }
+    }
+
+    fn tell(&self, kind: &str, text: &str) {
+        match &self.show {
+            Show::Bar(bar) => bar.suspend(|| line(&format!("{kind}: {text}"))),
+            Show::Plain { .. } => line(&format!("{kind}: {text}")),
+            Show::Json => event(json!({ "event": kind, "message": text })),
+        }
+    }
+}
+
+fn bar(frames: u32) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} frames  {wide_msg}")
+        .expect("a template that stands above")
+        .progress_chars("━╸ ");
+    ProgressBar::new(u64::from(frames)).with_style(style)
+}
+
+fn event(value: Value) {
+    line(&value.to_string());
+}
+
+/// A log that nobody reads any more is no reason to stop a run.
+fn line(text: &str) {
+    let _ = writeln!(stderr(), "{text}");
+}

@@ -1,0 +1,157 @@
+//! `stats.jsonl`: one JSON object a frame, on one line.
+
+use std::fs::File;
+use std::io::Write as _;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use super::{Sink, disk};
+use crate::error::Result;
+use crate::simulation::frame::{Frame, Statistics};
+
+/// Appends a line as soon as a frame is there, so that a run can be followed with `tail -f`.
+pub struct StatisticsFile {
+    path: PathBuf,
+    file: File,
+}
+
+impl StatisticsFile {
+    pub fn create(path: PathBuf) -> Result<Self> {
+        let file = File::create(&path).map_err(|reason| disk::failed(&path, "create", reason))?;
+        Ok(Self { path, file })
+    }
+}
+
+impl Sink for StatisticsFile {
+    fn frame(&mut self, frame: &Arc<Frame>) -> Result<()> {
+        let mut line = line(frame);
+        line.push('\n');
+        self.file
+            .write_all(line.as_bytes())
+            .map_err(|reason| disk::failed(&self.path, "write", reason))
+    }
+
+    fn finish(&mut self) -> Result<()> {
+        self.file
+            .sync_all()
+            .map_err(|reason| disk::failed(&self.path, "write", reason))
+    }
+}
+
+#[derive(Serialize)]
+struct Line {
+    frame: u32,
+    time_s: f64,
+    /// Since the run began.
+    steps: u64,
+    step_s: f64,
+    particles: u32,
+    #[serde(flatten)]
+    measured: Option<Measured>,
+    /// Sum over the frame's steps, by pass; only with `--timings`.
+    #[serde(skip_serializing_if = "Map::is_empty")]
+    pass_ms: Map<String, Value>,
+}
+
+#[derive(Serialize)]
+struct Measured {
+    kinetic_energy_j: f64,
+    potential_energy_j: f64,
+    max_speed_m_per_s: f64,
+    /// As a share of the radius.
+    max_overlap: f64,
+    contacts: u64,
+    voxels_allocated: u32,
+    voxels_occupied: u32,
+    voxels_with_1: u32,
+    voxels_with_2: u32,
+    voxels_with_3: u32,
+    voxels_with_4: u32,
+    voxels_with_more: u32,
+    overflow: u32,
+    overflow_since_last_frame: u64,
+}
+
+impl From<&Statistics> for Measured {
+    fn from(from: &Statistics) -> Self {
+        let [voxels_with_1, voxels_with_2, voxels_with_3, voxels_with_4] = from.voxels_with;
+        Self {
+            kinetic_energy_j: from.kinetic_energy,
+            potential_energy_j: from.potential_energy,
+            max_speed_m_per_s: from.max_speed,
+            max_overlap: from.max_overlap,
+            contacts: from.contacts,
+            voxels_allocated: from.voxels_allocated,
+            voxels_occupied: from.voxels_occupied,
+            voxels_with_1,
+            voxels_with_2,
+            voxels_with_3,
+            voxels_with_4,
+            voxels_with_more: from.voxels_with_more,
+            overflow: from.overflow,
+            overflow_since_last_frame: from.overflow_since_last_frame,
+        }
+    }
+}
+
+fn line(frame: &Frame) -> String {
+    let line = Line {
+        frame: frame.index,
+        time_s: frame.time,
+        steps: frame.steps,
+        step_s: frame.step_s,
+        particles: frame.particles,
+        measured: frame.statistics.as_ref().map(Measured::from),
+        pass_ms: by_pass(&frame.pass_ms),
+    };
+    serde_json::to_string(&line).expect("keys are text, and numbers that JSON lacks become null")
+}
+
+/// Sums times of passes with the same label; the order is that of first appearance.
+fn by_pass(times: &[(String, f64)]) -> Map<String, Value> {
+    let mut sums = Map::new();
+    for (label, ms) in times {
+        let sum = sums.get(label).and_then(Value::as_f64).unwrap_or(0.0) + ms;
+        sums.insert(label.clone(), sum.into());
+    }
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_object_a_frame_with_units_in_its_keys() {
+        let mut frame = Frame {
+            index: 3,
+            time: 0.1,
+            steps: 300,
+            step_s: 1e-3,
+            particles: 10,
+            pixels: None,
+            statistics: None,
+            columns: Vec::new(),
+            pass_ms: Vec::new(),
+        };
+        assert_eq!(
+            line(&frame),
+            r#"{"frame":3,"time_s":0.1,"steps":300,"step_s":0.001,"particles":10}"#
+        );
+
+        frame.statistics = Some(Statistics {
+            voxels_with: [4, 3, 2, 1],
+            ..Default::default()
+        });
+        frame.pass_ms = [("push", 1.0), ("count", 0.5), ("push", 2.0)]
+            .map(|(l, t)| (l.to_owned(), t))
+            .into();
+        let value: Value = serde_json::from_str(&line(&frame)).unwrap();
+        assert_eq!(value["voxels_with_1"], 4);
+        assert_eq!(value["voxels_with_4"], 1);
+        assert_eq!(value["pass_ms"].to_string(), r#"{"push":3.0,"count":0.5}"#);
+    }
+}

@@ -1,0 +1,59 @@
+//! What a run has done so far, and how fast.
+
+use std::time::Instant;
+
+use serde::Serialize;
+
+use crate::simulation::frame::Frame;
+
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Tally {
+    /// Simulated and handed to the sinks.
+    pub frames_done: u32,
+    /// Of the whole run.
+    pub frames: u32,
+    pub wall_s: f64,
+    /// Particles times steps.
+    pub particle_steps: u64,
+    pub particle_steps_per_s: f64,
+    #[serde(skip)]
+    started: Instant,
+    /// Of the last frame, since the run began.
+    #[serde(skip)]
+    steps: u64,
+}
+
+impl Tally {
+    /// Starts the clock.
+    pub fn start(frames: u32) -> Self {
+        Self {
+            frames_done: 0,
+            frames,
+            wall_s: 0.0,
+            particle_steps: 0,
+            particle_steps_per_s: 0.0,
+            started: Instant::now(),
+            steps: 0,
+        }
+    }
+
+    /// Counts the next frame.
+    pub fn add(&mut self, frame: &Frame) {
+        self.frames_done += 1;
+        self.particle_steps += (frame.steps - self.steps) * u64::from(frame.particles);
+        self.steps = frame.steps;
+        self.stop_clock();
+        self.particle_steps_per_s = self.particle_steps as f64 / self.wall_s;
+    }
+
+    /// Reads the clock once more.
+    pub fn stop_clock(&mut self) {
+        self.wall_s = self.started.elapsed().as_secs_f64();
+    }
+
+    /// Seconds until the last frame, when frames keep taking as long as they did.
+    pub fn remaining_s(&self) -> f64 {
+        let left = self.frames.saturating_sub(self.frames_done);
+        self.wall_s / f64::from(self.frames_done.max(1)) * f64::from(left)
+    }
+}

@@ -1,0 +1,397 @@
+//! The program as a user meets it: arguments, messages, exit status, files.
+
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::{Command, cargo_bin_cmd};
+use serde_json::Value;
+
+fn sliceflow(args: &[&str]) -> Command {
+    let mut command = cargo_bin_cmd!("sliceflow");
+    command.args(args);
+    command
+}
+
+/// Standard output of a command that succeeds.
+fn output(args: &[&str]) -> String {
+    let assert = sliceflow(args).assert().success();
+    String::from_utf8(assert.get_output().stdout.clone()).unwrap()
+}
+
+fn json(args: &[&str]) -> Value {
+    serde_json::from_str(&output(args)).unwrap()
+}
+
+/// Standard error of a command that fails with this exit status.
+fn failure(args: &[&str], status: i32) -> String {
+    let assert = sliceflow(args).assert().code(status);
+    String::from_utf8(assert.get_output().stderr.clone()).unwrap()
+}
+
+fn read_json(path: &Path) -> Value {
+    serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
+}
+
+/// A short run: three small frames of 2,000 discs.
+fn short_run<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    let mut args = vec![
+        "run",
+        "column_2d",
+        "--out",
+        out,
+        "--frames",
+        "3",
+        "--fps",
+        "1000",
+        "--size",
+        "160x120",
+    ];
+    args.extend(more);
+    args
+}
+
+#[test]
+fn help_has_examples() {
+    for command in ["run", "plan", "inspect", "scenes", "schema", "devices"] {
+        let help = output(&[command, "--help"]);
+        assert!(
+            help.contains("Examples:") && help.contains(&format!("sliceflow {command}")),
+            "{help}"
+        );
+        assert!(output(&["--help"]).contains(command));
+    }
+}
+
+#[test]
+fn help_is_plain_where_colors_are_not_wanted() {
+    let assert = sliceflow(&["--help"])
+        .env("NO_COLOR", "1")
+        .env("CLICOLOR_FORCE", "0")
+        .assert()
+        .success();
+    assert!(!assert.get_output().stdout.contains(&0x1b));
+}
+
+#[test]
+fn unknown_commands_and_arguments_exit_with_2() {
+    assert!(failure(&["insepct"], 2).contains("inspect"));
+    failure(&[], 2);
+    failure(&["run", "column_2d", "--size", "big"], 2);
+    failure(&["run", "column_2d", "--frames", "0"], 2);
+    failure(&["run", "column_2d", "--columns", "id"], 2);
+}
+
+#[test]
+fn unknown_scenes_columns_and_grids_are_told_with_what_there_is() {
+    assert!(failure(&["run", "column_3d"], 2).contains("column_2d"));
+    assert!(
+        failure(
+            &["plan", "column_2d", "--particles", "npy", "--columns", "mass"],
+            2
+        )
+        .contains("position")
+    );
+    assert!(failure(&["plan", "column_2d", "--grid", "pool"], 2).contains("sliced-pool"));
+    assert!(failure(&["plan", "column_2d", "--grid", "sliced-heap"], 2).contains("neighbors.storage"));
+    assert!(failure(&["plan", "column_2d", "--set", "grains.radios=1"], 2).contains("radius"));
+}
+
+#[test]
+fn schema_describes_every_key_of_a_scene() {
+    let schema = json(&["schema"]);
+    for key in [
+        "domain",
+        "grains",
+        "bodies",
+        "events",
+        "neighbors",
+        "time",
+        "render",
+    ] {
+        assert!(schema["properties"][key].is_object(), "{key}");
+    }
+}
+
+#[test]
+fn scenes_columns_and_color_maps_are_listed() {
+    let scenes = json(&["scenes", "--json"]);
+    assert!(
+        scenes
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|scene| !scene["source"].as_str().unwrap().is_empty())
+    );
+    assert!(output(&["scenes"]).contains("column_2d (2,000 particles)"));
+    assert!(output(&["scenes", "--columns"]).contains("kg/m³"));
+    assert!(output(&["scenes", "--color-maps"]).contains("viridis"));
+}
+
+#[test]
+fn devices_are_listed_with_what_a_plan_asks() {
+    let devices = json(&["devices", "--json"]);
+    let first = &devices[0];
+    assert_eq!(first["index"], 0);
+    assert!(first["binding_bytes"].as_u64().unwrap() >= 128 << 20, "{first}");
+    assert!(output(&["devices"]).contains(first["name"].as_str().unwrap()));
+}
+
+#[test]
+fn an_adapter_that_is_not_there_is_told_with_those_that_are() {
+    let name = json(&["devices", "--json"])[0]["name"]
+        .as_str()
+        .unwrap()
+        .to_owned();
+    for wrong in ["no such adapter", "99"] {
+        let message = failure(&["plan", "column_2d", "--adapter", wrong], 1);
+        assert!(message.contains(wrong) && message.contains(&name), "{message}");
+    }
+}
+
+#[test]
+fn a_machine_without_adapters_plans_and_says_how_to_get_one() {
+    let none = |args: &[&str]| {
+        sliceflow(args)
+            .env("VK_DRIVER_FILES", "/none")
+            .env("VK_ICD_FILENAMES", "/none")
+            .assert()
+    };
+    let planned = none(&["plan", "column_2d", "--json"]).success();
+    let plan: Value = serde_json::from_slice(&planned.get_output().stdout).unwrap();
+    assert_eq!(plan["adapter"], Value::Null);
+    for args in [&["devices"][..], &["inspect", "column_2d"]] {
+        let failed = none(args).code(1);
+        assert!(String::from_utf8_lossy(&failed.get_output().stderr).contains("mesa-vulkan-drivers"));
+    }
+}
+
+#[test]
+fn a_plan_names_buffers_and_passes_and_says_why() {
+    let plan = json(&["plan", "column_2d", "--json", "--frames", "31"]);
+    assert_eq!(plan["frames"], 31);
+    assert_eq!(plan["particles"], 2000);
+    let buffers = plan["plan"]["buffers"].as_array().unwrap();
+    let passes = plan["plan"]["passes"].as_array().unwrap();
+    assert!(!buffers.is_empty() && !passes.is_empty());
+    assert!(
+        buffers
+            .iter()
+            .chain(passes)
+            .all(|row| !row["why"].as_str().unwrap().is_empty())
+    );
+    assert_eq!(
+        plan["steps"].as_u64().unwrap(),
+        30 * plan["steps_per_frame"].as_u64().unwrap()
+    );
+
+    let text = output(&["run", "column_2d", "--dry-run"]);
+    assert!(
+        text.contains("limited by") && text.contains("particles  2,000"),
+        "{text}"
+    );
+}
+
+#[test]
+fn fewer_outputs_need_less_disk() {
+    let disk = |more: &[&str]| {
+        json(&[&["plan", "column_2d", "--json"], more].concat())["disk_bytes_estimate"]
+            .as_u64()
+            .unwrap()
+    };
+    assert_eq!(disk(&["--no-pictures", "--no-statistics"]), 0);
+    assert!(disk(&["--no-pictures"]) < disk(&[]));
+    assert!(disk(&[]) < disk(&["--particles", "npy"]));
+}
+
+#[test]
+fn a_run_writes_frames_statistics_particles_and_a_manifest() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let columns = [
+        "--particles",
+        "npy",
+        "--columns",
+        "position,id",
+        "--progress",
+        "json",
+    ];
+    let assert = sliceflow(&short_run(out.to_str().unwrap(), &columns))
+        .assert()
+        .success();
+    assert!(assert.get_output().stdout.is_empty());
+
+    for frame in 0..3 {
+        let picture = image::open(out.join(format!("frame_{frame:06}.png"))).unwrap();
+        assert_eq!((picture.width(), picture.height()), (160, 120));
+        let arrays = out.join(format!("particles_{frame:06}"));
+        let shape = |name: &str| {
+            npyz::NpyFile::new(&fs::read(arrays.join(name)).unwrap()[..])
+                .unwrap()
+                .shape()
+                .to_vec()
+        };
+        assert_eq!(shape("position.npy")[0], 2000);
+        assert_eq!(shape("id.npy"), [2000]);
+    }
+    assert_eq!(
+        fs::read_dir(&out).unwrap().count(),
+        3 + 3 + 2,
+        "no frame too many, no partial file left"
+    );
+
+    let statistics = fs::read_to_string(out.join("stats.jsonl")).unwrap();
+    let lines: Vec<Value> = statistics
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    assert_eq!(lines.len(), 3);
+    assert_eq!(lines[2]["frame"], 2);
+    assert!((lines[2]["time_s"].as_f64().unwrap() - 2e-3).abs() < 1e-9);
+
+    let manifest = read_json(&out.join("run.json"));
+    assert_eq!(manifest["status"], "finished");
+    assert_eq!(manifest["frames_done"], 3);
+    assert_eq!(manifest["scene"]["time"]["fps"], 1000.0);
+    assert_eq!(
+        manifest["particle_steps"].as_u64().unwrap(),
+        2000 * lines[2]["steps"].as_u64().unwrap()
+    );
+
+    let log = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
+    let events = log
+        .lines()
+        .map(|line| serde_json::from_str::<Value>(line).unwrap());
+    assert_eq!(events.filter(|event| event["event"] == "frame").count(), 3);
+}
+
+#[test]
+fn an_earlier_run_is_replaced_only_with_force() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    fs::write(folder.path().join("notes.txt"), "mine").unwrap();
+    for old in ["frame_000000.png", "frame_000007.png"] {
+        fs::write(folder.path().join(old), "old").unwrap();
+    }
+    let message = failure(&short_run(out, &[]), 2);
+    assert!(
+        message.contains("2 frames") && message.contains("--force"),
+        "{message}"
+    );
+    assert_eq!(
+        fs::read_to_string(folder.path().join("frame_000000.png")).unwrap(),
+        "old"
+    );
+
+    let assert = sliceflow(&short_run(out, &["--force"])).assert().success();
+    assert!(String::from_utf8_lossy(&assert.get_output().stderr).contains("removed"));
+    assert!(
+        !folder.path().join("frame_000007.png").exists(),
+        "beyond the new run's frames"
+    );
+    assert_eq!(
+        fs::read_to_string(folder.path().join("notes.txt")).unwrap(),
+        "mine"
+    );
+    image::open(folder.path().join("frame_000000.png")).unwrap();
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_keeps_its_frames_and_says_so() {
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let args = [
+        "run",
+        "column_2d",
+        "--out",
+        out,
+        "--frames",
+        "100000",
+        "--fps",
+        "1000",
+        "--size",
+        "64x48",
+    ];
+    let program = assert_cmd::cargo::cargo_bin!("sliceflow");
+    let mut run = Command::new(program)
+        .args(args)
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let patience = Instant::now();
+    while !folder.path().join("frame_000001.png").exists() {
+        assert!(patience.elapsed() < Duration::from_secs(120) && run.try_wait().unwrap().is_none());
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    Command::new("kill")
+        .args(["-INT", &run.id().to_string()])
+        .status()
+        .unwrap();
+    assert_eq!(run.wait().unwrap().code(), Some(130));
+
+    let manifest = read_json(&folder.path().join("run.json"));
+    assert_eq!(manifest["status"], "interrupted");
+    let frames = manifest["frames_done"].as_u64().unwrap();
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count() as u64, frames + 2);
+    assert_eq!(
+        fs::read_to_string(folder.path().join("stats.jsonl"))
+            .unwrap()
+            .lines()
+            .count() as u64,
+        frames
+    );
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_told_before_anything_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "").unwrap();
+    let out = file.join("out");
+    let message = failure(&short_run(out.to_str().unwrap(), &[]), 1);
+    assert!(
+        message.contains(out.to_str().unwrap()) && message.contains("--out"),
+        "{message}"
+    );
+    assert!(!message.contains("frame"), "{message}");
+}
+
+#[test]
+fn inspect_compares_grids() {
+    let found = json(&[
+        "inspect",
+        "column_2d",
+        "--frame",
+        "0",
+        "--grid",
+        "uniform-pool",
+        "sliced-pool",
+        "--json",
+    ]);
+    let [uniform, sliced] = found.as_array().unwrap().as_slice() else {
+        panic!("{found}")
+    };
+    assert_eq!(
+        (&uniform["grid"], &sliced["grid"]),
+        (&"uniform-pool".into(), &"sliced-pool".into())
+    );
+    assert_eq!(uniform["voxels_occupied"], sliced["voxels_occupied"]);
+    assert!(
+        sliced["grid_bytes"].as_u64() < uniform["grid_bytes"].as_u64(),
+        "{found}"
+    );
+
+    let several = [
+        "inspect",
+        "column_2d",
+        "--grid",
+        "uniform-pool",
+        "sliced-pool",
+        "--out",
+        "pool.png",
+    ];
+    assert!(failure(&several, 2).contains("--grid"));
+}
