@@ -8,12 +8,12 @@ use std::time::Instant;
 
 use glam::Vec3;
 use sliceflow::gpu::{AdapterChoice, Gpu, readback};
-use sliceflow::render::{Caption, Overlay, Renderer};
-use sliceflow::scene::model::{Background, View};
 use sliceflow::plan::{Plan, Wanted};
+use sliceflow::render::{Caption, Overlay, Renderer};
 use sliceflow::scene::load;
-use sliceflow::simulation::Simulation;
+use sliceflow::scene::model::{Background, View};
 use sliceflow::scene::{Collider, ColliderShape, Dimensions, Particles, Scene};
+use sliceflow::simulation::Simulation;
 
 fn save(name: &str, gpu: &Gpu, scene: &Scene, particles: &Particles) {
     let mut buffers = stage::buffers(gpu, scene, particles);
@@ -24,11 +24,23 @@ fn save(name: &str, gpu: &Gpu, scene: &Scene, particles: &Particles) {
     stage::frame(gpu, &renderer, &buffers, count, &offsets);
     let start = Instant::now();
     let pixels = stage::frame(gpu, &renderer, &buffers, count, &offsets);
-    println!("{name}: {count} particles, {:.0} ms", start.elapsed().as_secs_f64() * 1e3);
-    let splat: Vec<u32> = readback::read(gpu, buffers.get("splat", "(test)").unwrap(), particles.len()).unwrap();
+    println!(
+        "{name}: {count} particles, {:.0} ms",
+        start.elapsed().as_secs_f64() * 1e3
+    );
+    let splat: Vec<u32> =
+        readback::read(gpu, buffers.get("splat", "(test)").unwrap(), particles.len()).unwrap();
     println!("  {} hidden", splat.iter().filter(|&&look| look == 0).count());
-    let caption = Caption { frame: 0, time: 1.234, particles: count, voxels: None };
-    let image = Overlay::new(scene, View::Scene).unwrap().finish(pixels, &caption).unwrap();
+    let caption = Caption {
+        frame: 0,
+        time: 1.234,
+        particles: count,
+        voxels: None,
+    };
+    let image = Overlay::new(scene, View::Scene)
+        .unwrap()
+        .finish(pixels, &caption)
+        .unwrap();
     std::fs::create_dir_all("out/render").unwrap();
     image.save(format!("out/render/{name}.png")).unwrap();
 }
@@ -49,8 +61,13 @@ fn gallery() {
     let gpu = Gpu::open(&AdapterChoice::Best, false).unwrap();
     let size = [1280, 720];
     for (name, radius, count) in [("heap20k", 0.0185, 20_000), ("heap65k", 0.0125, 65_536)] {
-        let mut scene =
-            stage::scene(Dimensions::Three, Vec3::splat(-1.0), Vec3::new(1.0, 0.6, 1.0), radius, size);
+        let mut scene = stage::scene(
+            Dimensions::Three,
+            Vec3::splat(-1.0),
+            Vec3::new(1.0, 0.6, 1.0),
+            radius,
+            size,
+        );
         let particles = stage::heap(&scene, count);
         scene.capacity = particles.len() as u32;
         scene.name = name.into();
@@ -58,7 +75,10 @@ fn gallery() {
         if name == "heap20k" {
             scene.colliders.push(sphere(Vec3::new(0.62, -0.7, 0.62), 0.3));
             scene.colliders.push(Collider {
-                shape: ColliderShape::Box { min: Vec3::new(-0.95, -1.0, 0.3), max: Vec3::new(-0.6, -0.5, 0.8) },
+                shape: ColliderShape::Box {
+                    min: Vec3::new(-0.95, -1.0, 0.3),
+                    max: Vec3::new(-0.6, -0.5, 0.8),
+                },
                 color: [0.75, 0.45, 0.3],
                 ..sphere(Vec3::ZERO, 1.0)
             });
@@ -85,7 +105,11 @@ fn simulated(name: &str, scene: &str, overrides: &[&str], view: View, frames: u3
     let overrides: Vec<String> = overrides.iter().map(|&o| o.to_owned()).collect();
     let scene = load::load(&file, &overrides).unwrap();
     let gpu = Gpu::open(&AdapterChoice::Best, false).unwrap();
-    let wanted = Wanted { statistics: true, view: Some(view), ..Wanted::default() };
+    let wanted = Wanted {
+        statistics: true,
+        view: Some(view),
+        ..Wanted::default()
+    };
     let plan = Plan::new(&scene, &gpu.limits, &wanted).unwrap();
     let mut simulation = Simulation::new(gpu, &scene, &plan).unwrap();
     let mut last = None;
@@ -97,8 +121,16 @@ fn simulated(name: &str, scene: &str, overrides: &[&str], view: View, frames: u3
     }
     let frame = last.unwrap();
     let voxels = frame.statistics.map(|s| s.voxels_allocated);
-    let caption = Caption { frame: frame.index, time: frame.time, particles: frame.particles, voxels };
-    let image = Overlay::new(&scene, view).unwrap().finish(frame.pixels.unwrap(), &caption).unwrap();
+    let caption = Caption {
+        frame: frame.index,
+        time: frame.time,
+        particles: frame.particles,
+        voxels,
+    };
+    let image = Overlay::new(&scene, view)
+        .unwrap()
+        .finish(frame.pixels.unwrap(), &caption)
+        .unwrap();
     image.save(format!("out/render/{name}.png")).unwrap();
 }
 
@@ -115,6 +147,18 @@ fn shipped_scenes() {
     let wide = "render.size=[1280,720]";
     simulated("harada", "harada_figure_2_small", &[], View::Scene, 10);
     simulated("harada_both", "harada_figure_2_small", &[wide], View::Both, 10);
-    simulated("harada_pool", "harada_figure_2_small", &[wide, "render.background=dark"], View::Pool, 10);
-    simulated("harada_3d", "harada_figure_2_small", &[wide, "render.camera={}", "render.background=studio"], View::Scene, 10);
+    simulated(
+        "harada_pool",
+        "harada_figure_2_small",
+        &[wide, "render.background=dark"],
+        View::Pool,
+        10,
+    );
+    simulated(
+        "harada_3d",
+        "harada_figure_2_small",
+        &[wide, "render.camera={}", "render.background=studio"],
+        View::Scene,
+        10,
+    );
 }

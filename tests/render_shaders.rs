@@ -11,7 +11,7 @@ fn variants() -> Vec<Variant> {
             if two && axis == "slicing_axis_z" {
                 continue;
             }
-            for column in COLUMNS.iter().filter(|column| !column.vector) {
+            for column in COLUMNS {
                 let mut variant = Variant::default();
                 variant
                     .flag("two_dimensional", two)
@@ -50,7 +50,7 @@ fn every_picture_shader_is_valid() {
 #[test]
 fn every_column_has_a_file() {
     let files = compose::files();
-    for column in COLUMNS.iter().filter(|column| !column.vector) {
+    for column in COLUMNS {
         let path = format!("render/columns/{}", column.name);
         assert!(files.contains(&path), "there is no shaders/{path}.wgsl");
     }
@@ -59,9 +59,16 @@ fn every_column_has_a_file() {
 #[test]
 fn uniforms_have_one_layout_on_both_sides() {
     let variant = &variants()[0];
-    for (path, layout) in [("render/picture", Picture::LAYOUT), ("render/pool", PoolPanel::LAYOUT)] {
+    for (path, layout) in [
+        ("render/picture", Picture::LAYOUT),
+        ("render/pool", PoolPanel::LAYOUT),
+    ] {
         let shader = Shader::load(path, variant).unwrap();
-        let found = shader.structs().into_iter().find(|found| found.name == layout.name).unwrap();
+        let found = shader
+            .structs()
+            .into_iter()
+            .find(|found| found.name == layout.name)
+            .unwrap();
         assert_eq!(found.size as usize, layout.size, "{path}");
         let fields: Vec<(&str, usize, usize)> = found
             .fields
