@@ -1,6 +1,7 @@
 //! Pictures for looking at: `cargo test --release --test render_gallery -- --ignored --nocapture`; they go to `out/`.
 
 #[path = "render/stage.rs"]
+#[allow(dead_code)]
 mod stage;
 
 use std::path::Path;
