@@ -15,7 +15,13 @@ use sliceflow::scene::{Dimensions, Particles, Scene, color_maps};
 const SIZE: [u32; 2] = [160, 120];
 
 fn unit_scene(radius: f64) -> Scene {
-    stage::scene(Dimensions::Three, Vec3::splat(-1.0), Vec3::splat(1.0), radius, SIZE)
+    stage::scene(
+        Dimensions::Three,
+        Vec3::splat(-1.0),
+        Vec3::splat(1.0),
+        radius,
+        SIZE,
+    )
 }
 
 /// Resting particles at these places, with these speeds.
@@ -28,7 +34,11 @@ fn particles(places: &[Vec3], speeds: &[f32]) -> Particles {
 
 fn covered(image: &RgbaImage) -> Vec<(u32, u32)> {
     let lit = |pixel: &Rgba<u8>| pixel.0[..3].iter().any(|&c| c > 0);
-    image.enumerate_pixels().filter(|(_, _, pixel)| lit(pixel)).map(|(x, y, _)| (x, y)).collect()
+    image
+        .enumerate_pixels()
+        .filter(|(_, _, pixel)| lit(pixel))
+        .map(|(x, y, _)| (x, y))
+        .collect()
 }
 
 #[test]
@@ -112,15 +122,15 @@ fn no_sphere_that_can_be_seen_is_left_out() {
     stage::bare(&mut scene, Splat::Sphere);
     scene.render.camera.axis = Some(Axis::Z);
     let mut random = stage::Random(3);
-    let places: Vec<Vec3> =
-        (0..4000).map(|_| Vec3::new(random.next(), random.next(), random.next()) * 1.8 - 0.9).collect();
+    let places: Vec<Vec3> = (0..4000)
+        .map(|_| Vec3::new(random.next(), random.next(), random.next()) * 1.8 - 0.9)
+        .collect();
     let heap = particles(&places, &[0.5; 4000]);
     scene.capacity = heap.len() as u32;
     let mut buffers = stage::buffers(&gpu, &scene, &heap);
     let renderer = Renderer::new(&gpu, &scene, &stage::variant(&scene), &mut buffers, View::Scene).unwrap();
     stage::frame(&gpu, &renderer, &buffers, scene.capacity, &[]);
-    let splat: Vec<u32> =
-        readback::read(&gpu, buffers.get("splat", "(test)").unwrap(), heap.len()).unwrap();
+    let splat: Vec<u32> = readback::read(&gpu, buffers.get("splat", "(test)").unwrap(), heap.len()).unwrap();
     let hidden = splat.iter().filter(|&&look| look == 0).count();
     assert!(hidden * 5 > heap.len(), "only {hidden} of {} hidden", heap.len());
     for y in 0..scene.render.size[1] {
@@ -136,7 +146,13 @@ fn no_sphere_that_can_be_seen_is_left_out() {
 #[test]
 fn discs_have_the_colors_of_the_map() {
     let gpu = stage::gpu();
-    let mut scene = stage::scene(Dimensions::Two, Vec3::new(-1.0, -1.0, 0.0), Vec3::new(1.0, 1.0, 0.0), 0.3, SIZE);
+    let mut scene = stage::scene(
+        Dimensions::Two,
+        Vec3::new(-1.0, -1.0, 0.0),
+        Vec3::new(1.0, 1.0, 0.0),
+        0.3,
+        SIZE,
+    );
     stage::bare(&mut scene, Splat::Disc);
     scene.capacity = 3;
     let map = color_maps::find("viridis").unwrap().at;
@@ -194,7 +210,10 @@ fn projection_keeps_the_whole_domain_inside() {
                 let corner = Vec3::new(pick(1, -1.0, 4.0), pick(2, -1.0, 0.3), pick(4, -1.0, 1.0));
                 let clip: DVec4 = (sight.view_projection() * corner.extend(1.0)).as_dvec4();
                 let ndc = clip.truncate() / clip.w;
-                assert!(ndc.x.abs() < 1.0 && ndc.y.abs() < 1.0 && (0.0..=1.0).contains(&ndc.z), "{ndc}");
+                assert!(
+                    ndc.x.abs() < 1.0 && ndc.y.abs() < 1.0 && (0.0..=1.0).contains(&ndc.z),
+                    "{ndc}"
+                );
             }
         }
     }
@@ -214,22 +233,35 @@ fn two_draws_give_the_same_bytes_and_the_legend_shows() {
     let map = color_maps::find("viridis").unwrap().at;
     for share in [0.0, 1.0] {
         let [r, g, b] = map(share);
-        let shown = |image: &RgbaImage| image.enumerate_pixels().any(|(x, _, p)| x > 120 && p.0[..3] == [r, g, b]);
+        let shown = |image: &RgbaImage| {
+            image
+                .enumerate_pixels()
+                .any(|(x, _, p)| x > 120 && p.0[..3] == [r, g, b])
+        };
         assert!(shown(&first), "the color bar lacks the color of {share}");
     }
 }
 
 fn heatmap(gpu: &Gpu, scene: &Scene, counts: &[u32]) -> (RgbaImage, [u32; 3]) {
     let mut buffers = stage::buffers(gpu, scene, &particles(&[Vec3::ZERO], &[0.0]));
-    let grid = Grid { capacity: counts.len() as u32, ..Grid::default() };
+    let grid = Grid {
+        capacity: counts.len() as u32,
+        ..Grid::default()
+    };
     buffers.create(gpu, "grid", size_of::<Grid>() as u64, Usage::Uniform);
     buffers.create(gpu, "voxel_count", counts.len() as u64 * 4, Usage::Storage);
     buffers.write(gpu, "grid", 0, &[grid]).unwrap();
     buffers.write(gpu, "voxel_count", 0, counts).unwrap();
     let renderer = Renderer::new(gpu, scene, &stage::variant(scene), &mut buffers, View::Pool).unwrap();
     let pixels = stage::frame(gpu, &renderer, &buffers, 1, &[]);
-    let caption = Caption { voxels: Some(counts.len() as u32), ..Caption::default() };
-    let image = Overlay::new(scene, View::Pool).unwrap().finish(pixels, &caption).unwrap();
+    let caption = Caption {
+        voxels: Some(counts.len() as u32),
+        ..Caption::default()
+    };
+    let image = Overlay::new(scene, View::Pool)
+        .unwrap()
+        .finish(pixels, &caption)
+        .unwrap();
     (image, Layout::new(scene, View::Pool).pool.unwrap().square)
 }
 

@@ -59,9 +59,16 @@ fn every_column_has_a_file() {
 #[test]
 fn uniforms_have_one_layout_on_both_sides() {
     let variant = &variants()[0];
-    for (path, layout) in [("render/picture", Picture::LAYOUT), ("render/pool", PoolPanel::LAYOUT)] {
+    for (path, layout) in [
+        ("render/picture", Picture::LAYOUT),
+        ("render/pool", PoolPanel::LAYOUT),
+    ] {
         let shader = Shader::load(path, variant).unwrap();
-        let found = shader.structs().into_iter().find(|found| found.name == layout.name).unwrap();
+        let found = shader
+            .structs()
+            .into_iter()
+            .find(|found| found.name == layout.name)
+            .unwrap();
         assert_eq!(found.size as usize, layout.size, "{path}");
         let fields: Vec<(&str, usize, usize)> = found
             .fields

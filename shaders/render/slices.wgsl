@@ -82,7 +82,7 @@ fn place_slice_edge(@builtin(vertex_index) index: u32, @builtin(instance_index) 
 // Colors stand multiplied by their alpha.
 @fragment
 fn fill_green() -> @location(0) vec4f {
-    return vec4f(0.02, 0.60, 0.12, 1.0) * 0.10;
+    return vec4f(0.02, 0.60, 0.12, 1.0) * 0.08;
 }
 
 @fragment

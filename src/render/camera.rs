@@ -51,7 +51,11 @@ pub fn bounds(scene: &Scene) -> (DVec3, DVec3) {
 pub fn corners(low: DVec3, high: DVec3) -> [DVec3; 8] {
     std::array::from_fn(|i| {
         let pick = |bit: usize, a: f64, b: f64| if i & bit == 0 { a } else { b };
-        DVec3::new(pick(1, low.x, high.x), pick(2, low.y, high.y), pick(4, low.z, high.z))
+        DVec3::new(
+            pick(1, low.x, high.x),
+            pick(2, low.y, high.y),
+            pick(4, low.z, high.z),
+        )
     })
 }
 
@@ -83,7 +87,11 @@ impl Sight {
             // Three quarters from the front, a little from above.
             (None, None) => -DVec3::new(0.52, 0.40, 1.0).normalize(),
         };
-        let vertical = if forward.y.abs() > 0.999 { DVec3::NEG_Z } else { DVec3::Y };
+        let vertical = if forward.y.abs() > 0.999 {
+            DVec3::NEG_Z
+        } else {
+            DVec3::Y
+        };
         let right = forward.cross(vertical).normalize();
         let up = right.cross(forward);
         let perspective = axis.is_none() && camera.projection == Projection::Perspective;
@@ -112,7 +120,11 @@ impl Sight {
             let fitted = sight.fit_height(&points, target, share, turning, aspect);
             let height = camera.height.map_or(fitted, |height| height * 0.5);
             sight.half = aspect * height;
-            sight.shift = if camera.height.is_none() && camera.target.is_none() { middle } else { DVec2::ZERO };
+            sight.shift = if camera.height.is_none() && camera.target.is_none() {
+                middle
+            } else {
+                DVec2::ZERO
+            };
             if axis.is_some() || eye.is_none() {
                 sight.eye = target - forward * (high - low).length();
             }
@@ -175,7 +187,9 @@ impl Sight {
     /// Half height of an orthographic view that holds all points.
     fn fit_height(&self, points: &[DVec3], target: DVec3, share: DVec2, turning: bool, aspect: DVec2) -> f64 {
         let seen = self.seen(points, target, turning);
-        let fits = seen.iter().map(|p| (p.truncate().abs() / (share * aspect)).max_element());
+        let fits = seen
+            .iter()
+            .map(|p| (p.truncate().abs() / (share * aspect)).max_element());
         fits.fold(1e-12, f64::max)
     }
 
@@ -185,7 +199,11 @@ impl Sight {
         let drawn = scene.grains.radius * scene.render.splat_scale;
         let radius = (high - low).length() * 0.5 + 2.0 * drawn;
         let ahead = ((low + high) * 0.5 - self.eye).dot(self.forward);
-        let nearest = if self.perspective { radius * 0.004 } else { ahead - radius };
+        let nearest = if self.perspective {
+            radius * 0.004
+        } else {
+            ahead - radius
+        };
         self.near = (ahead - radius).max(nearest);
         self.far = (ahead + radius).max(self.near + radius * 0.01);
     }
@@ -198,7 +216,11 @@ impl Sight {
         let (range, w) = (self.far - self.near, if self.perspective { depth } else { end });
         let x = row(self.right, 1.0 / self.half.x) + w * self.shift.x;
         let y = row(self.up, 1.0 / self.half.y) + w * self.shift.y;
-        let scale = if self.perspective { self.far / range } else { 1.0 / range };
+        let scale = if self.perspective {
+            self.far / range
+        } else {
+            1.0 / range
+        };
         let z = (depth - end * self.near) * scale;
         let rows: [Vec4; 4] = [x, y, z, w].map(|row| row.as_vec4());
         Mat4::from_cols_array_2d(&rows.map(|row| row.to_array())).transpose()

@@ -49,7 +49,8 @@ struct Surface {
 impl Surface {
     fn vertex(&mut self, position: Vec3, normal: Vec3, outside_only: bool) {
         self.vertices.push(position.extend(self.number).to_array());
-        self.vertices.push(normal.extend(f32::from(u8::from(outside_only))).to_array());
+        self.vertices
+            .push(normal.extend(f32::from(u8::from(outside_only))).to_array());
     }
 
     /// A convex polygon as a fan.
@@ -180,8 +181,10 @@ fn clip(polygon: &[Vec3], point: Vec3, side: Vec3) -> Vec<Vec3> {
 fn plane_in_box(point: Vec3, normal: Vec3, domain: &Domain) -> Vec<Vec3> {
     let (u, v) = normal.any_orthonormal_pair();
     let reach = (domain.max - domain.min).length() + (point - domain.min).length();
-    let mut polygon: Vec<Vec3> =
-        [-u - v, u - v, u + v, v - u].iter().map(|&c| point + c * reach).collect();
+    let mut polygon: Vec<Vec3> = [-u - v, u - v, u + v, v - u]
+        .iter()
+        .map(|&c| point + c * reach)
+        .collect();
     for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
         polygon = clip(&polygon, domain.min, axis);
         polygon = clip(&polygon, domain.max, -axis);

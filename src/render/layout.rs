@@ -93,7 +93,11 @@ fn pool_alone(panel: Rectangle, pixels: &impl Fn(f32) -> u32) -> PoolPlace {
     } else {
         (2 * margin, 3 * margin + legend[1])
     };
-    let side = panel.width.saturating_sub(across).min(panel.height.saturating_sub(down)).max(1);
+    let side = panel
+        .width
+        .saturating_sub(across)
+        .min(panel.height.saturating_sub(down))
+        .max(1);
     if beside {
         let x = centered(panel.width, side + margin + legend[0]);
         let y = centered(panel.height, side);
@@ -118,22 +122,38 @@ fn pool_beside(whole: Rectangle, pixels: &impl Fn(f32) -> u32) -> (Rectangle, Po
     let legend = POOL_LEGEND.map(pixels);
     let Rectangle { width, height, .. } = whole;
     if width >= height {
-        let side = height.saturating_sub(3 * margin + legend[1]).min(width * 42 / 100).max(1);
+        let side = height
+            .saturating_sub(3 * margin + legend[1])
+            .min(width * 42 / 100)
+            .max(1);
         let panel_width = (side + 2 * margin).min(width - 1);
         let left = width - panel_width;
         let y = centered(height, side + margin + legend[1]);
         let pool = PoolPlace {
-            panel: Rectangle { x: left, y: 0, width: panel_width, height },
+            panel: Rectangle {
+                x: left,
+                y: 0,
+                width: panel_width,
+                height,
+            },
             square: [left + margin, y, side],
             legend: [left + margin, y + side + margin],
         };
         (Rectangle { width: left, ..whole }, pool)
     } else {
-        let side = width.saturating_sub(3 * margin + legend[0]).min(height * 42 / 100).max(1);
+        let side = width
+            .saturating_sub(3 * margin + legend[0])
+            .min(height * 42 / 100)
+            .max(1);
         let panel_height = (side.max(legend[1]) + 2 * margin).min(height - 1);
         let top = height - panel_height;
         let pool = PoolPlace {
-            panel: Rectangle { x: 0, y: top, width, height: panel_height },
+            panel: Rectangle {
+                x: 0,
+                y: top,
+                width,
+                height: panel_height,
+            },
             square: [margin, top + centered(panel_height, side), side],
             legend: [2 * margin + side, top + margin],
         };

@@ -43,7 +43,7 @@ pub fn look(background: Background) -> Look {
             floor: [255, 255, 255],
             shadow: 50,
             text: [24, 26, 30],
-            panel: [255, 255, 255],
+            panel: [226, 229, 233],
         },
         Background::Black => Look {
             backdrop_low: [0, 0, 0],
@@ -58,8 +58,14 @@ pub fn look(background: Background) -> Look {
 
 /// Colors of voxels by the number of their indices (Harada 2007, Figure 7): none, one, two, three; then our own for
 /// four and more, and for indices that found no slot.
-pub const POOL_COLORS: [Rgb; 6] =
-    [[0, 0, 0], [255, 0, 0], [255, 255, 0], [255, 255, 255], [0, 140, 255], [255, 0, 255]];
+pub const POOL_COLORS: [Rgb; 6] = [
+    [0, 0, 0],
+    [255, 0, 0],
+    [255, 255, 0],
+    [255, 255, 255],
+    [0, 140, 255],
+    [255, 0, 255],
+];
 
 /// Linear light of an sRGB byte (IEC 61966-2-1).
 pub fn linear(byte: u8) -> f32 {

@@ -48,7 +48,13 @@ pub struct Renderer {
 impl Renderer {
     /// `variant` carries the plan's flags and roles; buffers listed by [`needs()`] that
     /// are not there yet are created.
-    pub fn new(gpu: &Gpu, scene: &Scene, variant: &Variant, buffers: &mut Buffers, view: View) -> Result<Self> {
+    pub fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        variant: &Variant,
+        buffers: &mut Buffers,
+        view: View,
+    ) -> Result<Self> {
         let layout = Layout::new(scene, view);
         let style = Style::new(scene, view);
         let needs = needs(scene, view);
@@ -133,7 +139,10 @@ fn check_limits(gpu: &Gpu, needs: &Needs) -> Result<()> {
         let [width, height] = texture.size;
         if width.max(height) > most {
             return Err(Error::Limit {
-                what: format!("`{}` needs {width}×{height} samples; the adapter draws {most}×{most}", texture.name),
+                what: format!(
+                    "`{}` needs {width}×{height} samples; the adapter draws {most}×{most}",
+                    texture.name
+                ),
                 mend: "set render.antialias or render.size lower".into(),
             });
         }

@@ -77,14 +77,27 @@ pub fn needs(scene: &Scene, view: View) -> Needs {
         scene_needs(&mut needs, scene, &style, [place.width, place.height]);
     }
     if layout.pool.is_some() {
-        needs.uniform("pool_panel", size_of::<PoolPanel>(), "place and colors of the heatmap");
-        needs.draw(true, "paint_pool", "render/pool", "the index pool, one texel a voxel");
+        needs.uniform(
+            "pool_panel",
+            size_of::<PoolPanel>(),
+            "place and colors of the heatmap",
+        );
+        needs.draw(
+            true,
+            "paint_pool",
+            "render/pool",
+            "the index pool, one texel a voxel",
+        );
     }
     needs
 }
 
 fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) {
-    needs.uniform("picture", size_of::<Picture>(), "camera, light, range of the colors");
+    needs.uniform(
+        "picture",
+        size_of::<Picture>(),
+        "camera, light, range of the colors",
+    );
     needs.storage("color_map", 256, 4, "the color map, 256 entries");
     let capacity = u64::from(scene.capacity.max(1));
     needs.storage("splat", capacity, 4, "color and visibility of each particle");
@@ -92,11 +105,21 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         let vertices = (colliders::triangles(scene).len() as u64).max(1);
         needs.storage("collider_vertex", vertices, 16, "colliders as triangles");
         let colliders = scene.colliders.len() as u64;
-        needs.storage("collider_look", colliders, 32, "where colliders are and their color");
+        needs.storage(
+            "collider_look",
+            colliders,
+            32,
+            "where colliders are and their color",
+        );
     }
     if style.occlusion {
         let blocks = size.map(|side| u64::from(side.div_ceil(BLOCK)));
-        needs.storage("block_depth", blocks[0] * blocks[1], 4, "depth that blocks of pixels hide");
+        needs.storage(
+            "block_depth",
+            blocks[0] * blocks[1],
+            4,
+            "depth that blocks of pixels hide",
+        );
     }
     let samples = size.map(|side| side * scene.render.antialias);
     needs.texture("scene_color", samples, "the scene, several samples a pixel");
@@ -107,16 +130,60 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
     if style.occlusion {
         needs.texture("occluder_depth", size, "depth of what surely hides");
     }
-    needs.draw(style.shadows, "cast_splat", "render/cast_shadow", "shadows of particles");
-    needs.draw(style.shadows && style.colliders, "cast_collider", "render/colliders", "shadows of colliders");
-    needs.draw(style.occlusion, "place_occluder", "render/occluders", "what spheres surely hide");
-    needs.draw(style.occlusion, "find_block_depth", "render/occlusion", "the same, by blocks of pixels");
+    needs.draw(
+        style.shadows,
+        "cast_splat",
+        "render/cast_shadow",
+        "shadows of particles",
+    );
+    needs.draw(
+        style.shadows && style.colliders,
+        "cast_collider",
+        "render/colliders",
+        "shadows of colliders",
+    );
+    needs.draw(
+        style.occlusion,
+        "place_occluder",
+        "render/occluders",
+        "what spheres surely hide",
+    );
+    needs.draw(
+        style.occlusion,
+        "find_block_depth",
+        "render/occlusion",
+        "the same, by blocks of pixels",
+    );
     needs.draw(true, "color_splats", "render/color_splats", "values to colors");
     needs.draw(style.colliders, "place_collider", "render/colliders", "colliders");
-    let splat = if style.spheres { "place_sphere" } else { "place_disc" };
+    let splat = if style.spheres {
+        "place_sphere"
+    } else {
+        "place_disc"
+    };
     needs.draw(true, splat, style.splat_shader(), "particles");
-    needs.draw(style.domain, "place_domain_edge", "render/domain_box", "the domain in red lines");
-    needs.draw(style.slices, "place_slice_side", "render/slices", "allocated slices, translucent");
-    needs.draw(style.slices, "place_slice_edge", "render/slices", "edges of the slices");
-    needs.draw(true, "resolve", "render/resolve", "samples to pixels, over the backdrop");
+    needs.draw(
+        style.domain,
+        "place_domain_edge",
+        "render/domain_box",
+        "the domain in red lines",
+    );
+    needs.draw(
+        style.slices,
+        "place_slice_side",
+        "render/slices",
+        "allocated slices, translucent",
+    );
+    needs.draw(
+        style.slices,
+        "place_slice_edge",
+        "render/slices",
+        "edges of the slices",
+    );
+    needs.draw(
+        true,
+        "resolve",
+        "render/resolve",
+        "samples to pixels, over the backdrop",
+    );
 }

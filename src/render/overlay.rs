@@ -85,7 +85,10 @@ impl Overlay {
         let s = if caption.particles == 1 { "" } else { "s" };
         let time = format!("t = {:.3} s", caption.time);
         let count = format!("{} particle{s}", grouped(caption.particles));
-        let parts: Vec<&str> = [name, &time, &count].into_iter().filter(|part| !part.is_empty()).collect();
+        let parts: Vec<&str> = [name, &time, &count]
+            .into_iter()
+            .filter(|part| !part.is_empty())
+            .collect();
         let x = place.x as f32 + 20.0 * self.layout.scale;
         let y = (place.y + place.height) as f32 - 18.0 * self.layout.scale;
         self.writer.write(image, x, y, &parts.join("  ·  "));
@@ -96,7 +99,10 @@ impl ColorBar {
     fn new(scene: &Scene) -> Result<Self> {
         let color = &scene.color;
         let map = color_maps::find(&color.map).ok_or_else(|| {
-            Error::usage(format!("there is no color map `{}`", color.map), "see `sliceflow scenes --columns`")
+            Error::usage(
+                format!("there is no color map `{}`", color.map),
+                "see `sliceflow scenes --columns`",
+            )
         })?;
         let [low, high] = color.range;
         let values = ticks(low, high, 6);
@@ -110,7 +116,11 @@ impl ColorBar {
     }
 
     fn draw(&self, image: &mut RgbaImage, writer: &Writer, text: Rgb, place: Rectangle, scale: f32) {
-        let widest = self.ticks.iter().map(|(_, label)| writer.width(label)).fold(0.0, f32::max);
+        let widest = self
+            .ticks
+            .iter()
+            .map(|(_, label)| writer.width(label))
+            .fold(0.0, f32::max);
         let (bar, mark, gap) = (14.0 * scale, 5.0 * scale, 5.0 * scale);
         let head = writer.width(&self.title).max(writer.width(&self.unit));
         let wide = (bar + mark + gap + widest).max(head);
@@ -121,7 +131,14 @@ impl ColorBar {
         let width = bar.max(3.0).round() as i64;
         let frame = 1.max(scale.round() as i64);
         let (left, upper, height) = (x as i64, top as i64, tall as i64);
-        fill(image, left - frame, upper - frame, width + 2 * frame, height + 2 * frame, text);
+        fill(
+            image,
+            left - frame,
+            upper - frame,
+            width + 2 * frame,
+            height + 2 * frame,
+            text,
+        );
         for row in 0..height {
             let share = (height - 1 - row) as f32 / (height - 1).max(1) as f32;
             let color = self.colors[(share * 255.0).round() as usize];
@@ -131,7 +148,12 @@ impl ColorBar {
             let y = top + (1.0 - share) * (tall - 1.0);
             for dx in 0..mark.round() as i64 {
                 for dy in 0..frame {
-                    blend(image, (left + width + frame + dx, y.round() as i64 + dy), text, 1.0);
+                    blend(
+                        image,
+                        (left + width + frame + dx, y.round() as i64 + dy),
+                        text,
+                        1.0,
+                    );
                 }
             }
             writer.write(image, x + bar + mark + gap, y + writer.digit() * 0.55, label);

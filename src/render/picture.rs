@@ -77,7 +77,14 @@ pub fn floor_height(scene: &Scene) -> f64 {
 
 impl Picture {
     /// The picture of `count` particles at `time` seconds.
-    pub fn new(scene: &Scene, layout: &Layout, place: Rectangle, style: &Style, time: f64, count: u32) -> Self {
+    pub fn new(
+        scene: &Scene,
+        layout: &Layout,
+        place: Rectangle,
+        style: &Style,
+        time: f64,
+        count: u32,
+    ) -> Self {
         let size = [place.width, place.height];
         let sight = Sight::new(scene, size, layout.insets, time);
         let first = Sight::new(scene, size, layout.insets, 0.0);

@@ -33,12 +33,15 @@ impl PoolLegend {
             if count > highest {
                 continue;
             }
-            rows.push((color, match count {
-                0 => "empty".into(),
-                1 => "1 particle".into(),
-                4 if highest > 4 => "4 or more".into(),
-                _ => format!("{count} particles"),
-            }));
+            rows.push((
+                color,
+                match count {
+                    0 => "empty".into(),
+                    1 => "1 particle".into(),
+                    4 if highest > 4 => "4 or more".into(),
+                    _ => format!("{count} particles"),
+                },
+            ));
         }
         if bounded {
             rows.push((POOL_COLORS[5], format!("over {slots}: no slot left")));
@@ -53,7 +56,10 @@ impl PoolLegend {
         line += writer.line() * 1.15;
         let swatch = (13.0 * scale).max(5.0).round();
         for (color, what) in &self.rows {
-            let (left, upper) = (x as i64, (line - writer.digit() * 0.5 - swatch * 0.5).round() as i64);
+            let (left, upper) = (
+                x as i64,
+                (line - writer.digit() * 0.5 - swatch * 0.5).round() as i64,
+            );
             let side = swatch as i64;
             fill(image, left - 1, upper - 1, side + 2, side + 2, self.text);
             fill(image, left, upper, side, side, *color);

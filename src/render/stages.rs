@@ -49,7 +49,11 @@ fn texture(gpu: &Gpu, needs: &Needs, name: &str) -> Option<wgpu::TextureView> {
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: if name == "scene_color" { COLOR_FORMAT } else { DEPTH_FORMAT },
+        format: if name == "scene_color" {
+            COLOR_FORMAT
+        } else {
+            DEPTH_FORMAT
+        },
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
         view_formats: &[],
     });
@@ -84,18 +88,30 @@ impl Stages {
             ("shadow_sampler", wgpu::BindingResource::Sampler(&shadow_sampler)),
         ];
         for (name, view) in [("shadow_map", &shadow_map), ("occluder_depth", &occluder_depth)] {
-            textures.extend(view.as_ref().map(|v| (name, wgpu::BindingResource::TextureView(v))));
+            textures.extend(
+                view.as_ref()
+                    .map(|v| (name, wgpu::BindingResource::TextureView(v))),
+            );
         }
         let draw = |path: &str, vertex: &str, fragment: Option<&str>, style: DrawStyle| {
             Draw::new(gpu, &load(path)?, vertex, fragment, style, buffers, &textures)
         };
-        let compute = |path: &str, entry: &str| Pass::with_textures(gpu, &load(path)?, entry, buffers, &textures);
+        let compute =
+            |path: &str, entry: &str| Pass::with_textures(gpu, &load(path)?, entry, buffers, &textures);
 
-        let collider_vertices = if parts.colliders { colliders::triangles(scene).len() as u32 / 2 } else { 0 };
+        let collider_vertices = if parts.colliders {
+            colliders::triangles(scene).len() as u32 / 2
+        } else {
+            0
+        };
         let mut casts = Vec::new();
         if parts.shadows {
             let round = parts.round_shadows.then_some("round_splat");
-            casts.push((draw("render/cast_shadow", "cast_splat", round, style(STRIP, None))?, 4, None));
+            casts.push((
+                draw("render/cast_shadow", "cast_splat", round, style(STRIP, None))?,
+                4,
+                None,
+            ));
             if parts.colliders {
                 let cast = draw("render/colliders", "cast_collider", None, style(LIST, None))?;
                 casts.push((cast, collider_vertices, Some(1)));
@@ -105,15 +121,32 @@ impl Stages {
         let over = Some(Blend::Over);
         let mut draws = Vec::new();
         if parts.colliders {
-            let solid = draw("render/colliders", "place_collider", Some("shade_collider"), style(LIST, opaque))?;
+            let solid = draw(
+                "render/colliders",
+                "place_collider",
+                Some("shade_collider"),
+                style(LIST, opaque),
+            )?;
             draws.push((solid, collider_vertices, Some(1)));
         }
-        let (vertex, fragment) =
-            if parts.spheres { ("place_sphere", "shade_sphere") } else { ("place_disc", "fill_disc") };
-        draws.push((draw(parts.splat_shader(), vertex, Some(fragment), style(STRIP, opaque))?, 4, None));
+        let (vertex, fragment) = if parts.spheres {
+            ("place_sphere", "shade_sphere")
+        } else {
+            ("place_disc", "fill_disc")
+        };
+        draws.push((
+            draw(parts.splat_shader(), vertex, Some(fragment), style(STRIP, opaque))?,
+            4,
+            None,
+        ));
         if parts.domain {
             let edges = if parts.three_dimensional { 12 } else { 4 };
-            let lines = draw("render/domain_box", "place_domain_edge", Some("draw_red"), style(STRIP, opaque))?;
+            let lines = draw(
+                "render/domain_box",
+                "place_domain_edge",
+                Some("draw_red"),
+                style(STRIP, opaque),
+            )?;
             draws.push((lines, 4, Some(edges)));
         }
         if parts.slices {
@@ -121,9 +154,19 @@ impl Stages {
             let records = buffers.get("slice_record", "render/slices.wgsl")?.size() / 16;
             let slices = records.saturating_sub(1) as u32;
             let (sides, edges) = if parts.three_dimensional { (4, 12) } else { (1, 4) };
-            let fill = draw("render/slices", "place_slice_side", Some("fill_green"), style(STRIP, over))?;
+            let fill = draw(
+                "render/slices",
+                "place_slice_side",
+                Some("fill_green"),
+                style(STRIP, over),
+            )?;
             draws.push((fill, 4, Some(slices * sides)));
-            let lines = draw("render/slices", "place_slice_edge", Some("edge_green"), style(STRIP, over))?;
+            let lines = draw(
+                "render/slices",
+                "place_slice_edge",
+                Some("edge_green"),
+                style(STRIP, over),
+            )?;
             draws.push((lines, 4, Some(slices * edges)));
         }
         let occluders = match &occluder_depth {
@@ -151,7 +194,13 @@ impl Stages {
         })
     }
 
-    pub fn encode(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, picture: &Picture, looks: &[[f32; 4]]) {
+    pub fn encode(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        picture: &Picture,
+        looks: &[[f32; 4]],
+    ) {
         upload(gpu, encoder, &self.picture, bytemuck::bytes_of(picture));
         if let Some(buffer) = &self.collider_look {
             upload(gpu, encoder, buffer, bytemuck::cast_slice(looks));
@@ -168,7 +217,14 @@ impl Stages {
             dispatch(encoder, find, width.div_ceil(BLOCK) * height.div_ceil(BLOCK));
         }
         dispatch(encoder, &self.color_splats, picture.count);
-        draw_all(encoder, "draw_scene", Some(&self.color), &self.depth, &self.draws, picture.count);
+        draw_all(
+            encoder,
+            "draw_scene",
+            Some(&self.color),
+            &self.depth,
+            &self.draws,
+            picture.count,
+        );
         dispatch(encoder, &self.resolve, width * height);
     }
 }
@@ -224,7 +280,11 @@ fn begin<'a>(
     let attachments = [color];
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some(label),
-        color_attachments: if attachments[0].is_some() { &attachments } else { &[] },
+        color_attachments: if attachments[0].is_some() {
+            &attachments
+        } else {
+            &[]
+        },
         depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
             view: depth,
             depth_ops: Some(wgpu::Operations {

@@ -73,6 +73,10 @@ impl Style {
 
     /// File of the splats.
     pub fn splat_shader(&self) -> &'static str {
-        if self.spheres { "render/sphere" } else { "render/disc" }
+        if self.spheres {
+            "render/sphere"
+        } else {
+            "render/disc"
+        }
     }
 }

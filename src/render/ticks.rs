@@ -17,13 +17,26 @@ pub fn ticks(low: f64, high: f64, most: usize) -> Vec<f64> {
 /// The values with as many decimals as tell them apart; very large and very small ones with a power of ten.
 pub fn labels(values: &[f64]) -> Vec<String> {
     let largest = values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    let step = values.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
-    let step = if step.is_finite() { step } else { largest.max(1e-300) };
+    let step = values
+        .windows(2)
+        .map(|w| w[1] - w[0])
+        .fold(f64::INFINITY, f64::min);
+    let step = if step.is_finite() {
+        step
+    } else {
+        largest.max(1e-300)
+    };
     if largest >= 1e6 || (largest > 0.0 && largest < 1e-3) {
         let digits = (largest.log10().floor() - step.log10().floor()).clamp(0.0, 8.0) as usize;
         return values
             .iter()
-            .map(|&v| if v == 0.0 { "0".into() } else { format!("{v:.digits$e}").replace('-', "−") })
+            .map(|&v| {
+                if v == 0.0 {
+                    "0".into()
+                } else {
+                    format!("{v:.digits$e}").replace('-', "−")
+                }
+            })
             .collect();
     }
     let decimals = (-(step * 1.0001).log10().floor()).clamp(0.0, 8.0) as usize;
@@ -51,7 +64,10 @@ mod tests {
     #[test]
     fn ticks_are_round_and_inside() {
         assert_eq!(ticks(0.0, 1.0, 5), [0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0]);
-        assert_eq!(labels(&ticks(0.0, 1.0, 5)), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+        assert_eq!(
+            labels(&ticks(0.0, 1.0, 5)),
+            ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]
+        );
         assert_eq!(labels(&ticks(1000.0, 2000.0, 4)), ["1000", "1500", "2000"]);
         assert_eq!(labels(&ticks(-0.3, 0.3, 4)), ["−0.2", "0.0", "0.2"]);
         assert_eq!(labels(&ticks(0.0, 4e7, 4)), ["0", "1e7", "2e7", "3e7", "4e7"]);

@@ -31,7 +31,12 @@ pub fn scene(dimensions: Dimensions, min: Vec3, max: Vec3, radius: f64, size: [u
         file,
         dimensions,
         origin: DVec3::ZERO,
-        domain: Domain { min, max, sides: [[Wall::Contact; 2]; 3], restitution: 0.5 },
+        domain: Domain {
+            min,
+            max,
+            sides: [[Wall::Contact; 2]; 3],
+            restitution: 0.5,
+        },
         gravity: Vec3::new(0.0, -9.81, 0.0),
         grains: Grains {
             radius,
@@ -65,7 +70,10 @@ pub fn scene(dimensions: Dimensions, min: Vec3, max: Vec3, radius: f64, size: [u
             contact_duration: 1.0,
             limited_by: "",
         },
-        render: Render { size, ..Render::default() },
+        render: Render {
+            size,
+            ..Render::default()
+        },
         color: Coloring {
             column: column::find("speed").unwrap(),
             map: "viridis".into(),
@@ -92,10 +100,19 @@ pub fn bare(scene: &mut Scene, splat: Splat) {
 pub fn buffers(gpu: &Gpu, scene: &Scene, particles: &Particles) -> Buffers {
     let mut buffers = Buffers::default();
     let two = scene.dimensions == Dimensions::Two;
-    for (name, values) in [("position", &particles.position), ("velocity", &particles.velocity)] {
+    for (name, values) in [
+        ("position", &particles.position),
+        ("velocity", &particles.velocity),
+    ] {
         let packed: Vec<f32> = values
             .iter()
-            .flat_map(|v| if two { vec![v.x, v.y] } else { vec![v.x, v.y, v.z, 0.0] })
+            .flat_map(|v| {
+                if two {
+                    vec![v.x, v.y]
+                } else {
+                    vec![v.x, v.y, v.z, 0.0]
+                }
+            })
             .collect();
         buffers.create(gpu, name, (packed.len() * 4) as u64, Usage::Storage);
         buffers.write(gpu, name, 0, &packed).unwrap();
@@ -122,9 +139,23 @@ pub fn picture(gpu: &Gpu, scene: &Scene, particles: &Particles) -> RgbaImage {
     let mut buffers = buffers(gpu, scene, particles);
     let renderer = Renderer::new(gpu, scene, &variant(scene), &mut buffers, View::Scene).unwrap();
     let count = particles.len() as u32;
-    let pixels = frame(gpu, &renderer, &buffers, count, &vec![Vec3::ZERO; scene.colliders.len()]);
-    let caption = Caption { frame: 0, time: 0.0, particles: count, voxels: None };
-    Overlay::new(scene, View::Scene).unwrap().finish(pixels, &caption).unwrap()
+    let pixels = frame(
+        gpu,
+        &renderer,
+        &buffers,
+        count,
+        &vec![Vec3::ZERO; scene.colliders.len()],
+    );
+    let caption = Caption {
+        frame: 0,
+        time: 0.0,
+        particles: count,
+        voxels: None,
+    };
+    Overlay::new(scene, View::Scene)
+        .unwrap()
+        .finish(pixels, &caption)
+        .unwrap()
 }
 
 pub fn frame(gpu: &Gpu, renderer: &Renderer, buffers: &Buffers, count: u32, offsets: &[Vec3]) -> Vec<u8> {
@@ -141,7 +172,10 @@ pub struct Random(pub u64);
 
 impl Random {
     pub fn next(&mut self) -> f32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 40) as f32 / (1u64 << 24) as f32
     }
 }
