@@ -57,10 +57,7 @@ pub struct Casualty {
 #[derive(Debug)]
 pub enum Error {
     /// The scene file holds mistakes; all of them are listed.
-    Scene {
-        file: String,
-        problems: Vec<Problem>,
-    },
+    Scene { file: String, problems: Vec<Problem> },
     /// A file or folder could not be read or written.
     File {
         path: PathBuf,
@@ -138,15 +135,9 @@ impl fmt::Display for Error {
                 reason,
                 mend,
             } => {
-                write!(
-                    f,
-                    "cannot {doing} {}: {reason}\n  mend: {mend}",
-                    path.display()
-                )
+                write!(f, "cannot {doing} {}: {reason}\n  mend: {mend}", path.display())
             }
-            Self::Device { what, mend }
-            | Self::Limit { what, mend }
-            | Self::Usage { what, mend } => {
+            Self::Device { what, mend } | Self::Limit { what, mend } | Self::Usage { what, mend } => {
                 write!(f, "{what}\n  mend: {mend}")
             }
             Self::Shader { message } => write!(
@@ -165,10 +156,7 @@ impl fmt::Display for Error {
                 )
             }
             Self::Interrupted { frames_done } => {
-                write!(
-                    f,
-                    "interrupted; {frames_done} finished frame(s) are on disk"
-                )
+                write!(f, "interrupted; {frames_done} finished frame(s) are on disk")
             }
         }
     }

@@ -1,3 +1,53 @@
+//! Sliceflow: an offline, headless particle simulator and renderer on wgpu.
+//!
+//! Four ideas, in the order data flows:
+//!
+//! ```text
+//!  Scene ──► Plan ──► Simulation ──► Sinks
+//!  what a    which     runs the       PNG frames, particle files,
+//!  user      buffers   plan on one    statistics, the manifest
+//!  writes    and       wgpu device
+//!  (JSON)    passes
+//! ```
+//!
+//! # Rooms
+//!
+//! Imports point one way: a room uses those above it in this list, never those below.
+//!
+//! - `src/error.rs`: the one error type; every message says what to do next.
+//! - `src/scene/`: what a user writes (`src/scene/model.rs`), checked against its own schema (`src/scene/check.rs`),
+//!   made into numbers (`src/scene/validate.rs`); shapes, meshes and files become particles.
+//! - `src/gpu/`: the only user of wgpu. Shaders are composed (`src/gpu/compose.rs`) and reflected
+//!   (`src/gpu/reflect.rs`); a pass binds buffers by the name that they have everywhere (`src/gpu/pass.rs`).
+//! - `src/neighbors/`: neighbor search = `src/neighbors/addressing.rs` × `src/neighbors/storage.rs`.
+//! - `src/physics/`: grains (`src/physics/dem.rs`) and obstacles; parameters and an ordered list of passes.
+//! - `src/render/`: pictures from the simulation's own buffers: splats, colliders, slices, the pool's heatmap, legends.
+//! - `src/plan/`: scene + limits → every buffer and pass, with the reason for each. Needs no GPU.
+//! - `src/simulation/`: executes a plan: steps, frames, what comes back.
+//! - `src/output/`: sinks, each fed by bounded threads, and the run that drives them.
+//! - `src/cli/`: one file a command.
+//!
+//! `shaders/` mirrors this: `shaders/common/`, `shaders/cells/` (addressing), `shaders/storage/`, `shaders/physics/`,
+//! `shaders/render/`.
+//!
+//! # One particle's trip from scene file to pixel
+//!
+//! `src/scene/shapes.rs` places it, relative to the scene's origin, which is subtracted in f64. The simulation writes
+//! it into `next_position`; the search's passes count it into a voxel and scatter it to its place in `position`, where
+//! neighbors in space are neighbors in memory. Every step, `shaders/physics/dem/symplectic_euler.wgsl` asks the search
+//! for candidate ranges, sums contacts and writes `next_position` again. At the end of a frame the renderer's vertex
+//! stage pulls the particle from the very same buffer, the fragment stage shades a sphere, and the pixels, a few
+//! figures and only the columns that a sink wants travel through a ring of staging buffers (`src/gpu/readback.rs`) to
+//! the encoder threads of `src/output/png.rs`.
+//!
+//! # To add
+//!
+//! - a scene: one JSON file in `assets/scenes/`;
+//! - a way to address voxels or to keep particles: one shader file and one row of the table in
+//!   `src/neighbors/addressing.rs` or `src/neighbors/storage.rs`;
+//! - a column: one row in `src/scene/column.rs` and one file in `shaders/render/columns/`;
+//! - a color map: one row in `src/scene/color_maps.rs`.
+
 pub mod cli;
 pub mod error;
 pub mod gpu;

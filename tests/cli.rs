@@ -395,3 +395,53 @@ fn inspect_compares_grids() {
     ];
     assert!(failure(&several, 2).contains("--grid"));
 }
+
+/// Every file of a run but the manifest (which has times of day), by name.
+fn files(folder: &Path) -> std::collections::BTreeMap<String, Vec<u8>> {
+    let mut found = std::collections::BTreeMap::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(inside) = folders.pop() {
+        for entry in std::fs::read_dir(inside).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if !path.ends_with("run.json") {
+                let name = path.strip_prefix(folder).expect("inside").display().to_string();
+                found.insert(name, std::fs::read(path).expect("a file"));
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn two_runs_write_the_same_bytes() {
+    let temporary = tempfile::tempdir().expect("a folder");
+    let out = |name: &str| temporary.path().join(name).display().to_string();
+    for name in ["one", "two"] {
+        let out = out(name);
+        let arguments = [
+            "run",
+            "harada_figure_2_small",
+            "--out",
+            &out,
+            "--frames",
+            "4",
+            "--size",
+            "320x180",
+            "--particles",
+            "npy",
+            "--view",
+            "both",
+            "--progress",
+            "plain",
+        ];
+        sliceflow(&arguments).assert().success();
+    }
+    let (one, two) = (files(Path::new(&out("one"))), files(Path::new(&out("two"))));
+    assert_eq!(one.len(), 4 + 4 * 6 + 1, "{:?}", one.keys());
+    assert_eq!(one.keys().collect::<Vec<_>>(), two.keys().collect::<Vec<_>>());
+    for (name, bytes) in &one {
+        assert!(bytes == &two[name], "{name} differs");
+    }
+}

@@ -13,7 +13,11 @@ use sliceflow::simulation::{Frame, Simulation, Values};
 
 fn wanted() -> Wanted {
     let columns = sliceflow::output::columns_named(["position", "velocity", "contacts"]).expect("columns");
-    Wanted { statistics: true, columns, view: None }
+    Wanted {
+        statistics: true,
+        columns,
+        view: None,
+    }
 }
 
 /// Runs `frames` frame intervals and gives the last frame.
@@ -42,7 +46,12 @@ fn vectors(frame: &Frame, name: &str) -> Vec<DVec3> {
 
 /// A loose heap that collides with itself and with the walls, without obstacles; 100 steps make one frame.
 fn heap(dimensions: usize, overrides: &[&str]) -> Scene {
-    let mut all = vec!["colliders=[]", "time.fps=100", "time.step=0.0001", "time.duration=0.02"];
+    let mut all = vec![
+        "colliders=[]",
+        "time.fps=100",
+        "time.step=0.0001",
+        "time.duration=0.02",
+    ];
     all.extend(overrides);
     let mut scene = common::scene(dimensions, &all);
     // Pressed together a little and thrown about, so that contacts of all kinds happen at once.
@@ -52,7 +61,11 @@ fn heap(dimensions: usize, overrides: &[&str]) -> Scene {
         *p = low + (*p - low) * squeeze;
         let phase = i as f32;
         let wobble = Vec3::new(phase.sin(), (1.7 * phase).cos(), (0.9 * phase).sin());
-        scene.particles.velocity[i] = if dimensions == 2 { wobble.with_z(0.0) } else { wobble } * 0.4;
+        scene.particles.velocity[i] = if dimensions == 2 {
+            wobble.with_z(0.0)
+        } else {
+            wobble
+        } * 0.4;
     }
     let lowest = scene.particles.position.iter().fold(Vec3::MAX, |a, b| a.min(*b));
     for p in &mut scene.particles.position {
@@ -70,13 +83,28 @@ fn difference(scene: &Scene) -> (f64, f64) {
     let before = reference.position.clone();
     reference.advance(scene.time.steps_per_frame);
     let largest = |v: &mut dyn Iterator<Item = f64>| v.fold(0.0, f64::max);
-    let went = largest(&mut reference.position.iter().zip(&before).map(|(a, b)| a.distance(*b)));
+    let went = largest(
+        &mut reference
+            .position
+            .iter()
+            .zip(&before)
+            .map(|(a, b)| a.distance(*b)),
+    );
     let fastest = largest(&mut reference.velocity.iter().map(|v| v.length()));
     let position = vectors(&frame, "position");
     let velocity = vectors(&frame, "velocity");
-    let off = position.iter().zip(&reference.position).map(|(a, b)| (*a - scene.origin).distance(*b));
-    let slow = velocity.iter().zip(&reference.velocity).map(|(a, b)| a.distance(*b));
-    (largest(&mut off.into_iter()) / went, largest(&mut slow.into_iter()) / fastest)
+    let off = position
+        .iter()
+        .zip(&reference.position)
+        .map(|(a, b)| (*a - scene.origin).distance(*b));
+    let slow = velocity
+        .iter()
+        .zip(&reference.velocity)
+        .map(|(a, b)| a.distance(*b));
+    (
+        largest(&mut off.into_iter()) / went,
+        largest(&mut slow.into_iter()) / fastest,
+    )
 }
 
 /// Each term of the contact law, alone.
@@ -103,10 +131,17 @@ fn forces_of_each_law_agree_with_the_reference() {
             let before = reference.velocity.clone();
             reference.advance(1);
             let change = |v: &DVec3, i: usize| (*v - before[i]) / scene.time.step;
-            let expected: Vec<DVec3> = reference.velocity.iter().enumerate().map(|(i, v)| change(v, i)).collect();
+            let expected: Vec<DVec3> = reference
+                .velocity
+                .iter()
+                .enumerate()
+                .map(|(i, v)| change(v, i))
+                .collect();
             let largest = expected.iter().map(|a| a.length()).fold(0.0, f64::max);
             let found = vectors(&frame, "velocity");
-            let off = (0..found.len()).map(|i| change(&found[i], i).distance(expected[i]) / largest).fold(0.0, f64::max);
+            let off = (0..found.len())
+                .map(|i| change(&found[i], i).distance(expected[i]) / largest)
+                .fold(0.0, f64::max);
             println!("{dimensions}D, {name}: {off:.1e} of the largest force");
             worst = worst.max(off);
         }
@@ -124,7 +159,9 @@ fn a_hundred_steps_of_each_law_follow_the_reference() {
             for integrator in ["symplectic_euler", "velocity_verlet"] {
                 let scene = heap(dimensions, &[law, &format!("time.integrator={integrator}")]);
                 let (position, velocity) = difference(&scene);
-                println!("{dimensions}D, {name}, {integrator}: position {position:.1e}, velocity {velocity:.1e}");
+                println!(
+                    "{dimensions}D, {name}, {integrator}: position {position:.1e}, velocity {velocity:.1e}"
+                );
                 worst = worst.max(position).max(velocity);
             }
         }
@@ -134,7 +171,12 @@ fn a_hundred_steps_of_each_law_follow_the_reference() {
 
 /// Two grains that meet head-on, as far from the walls as can be.
 fn collision(overrides: &[&str], speed: f32) -> Scene {
-    let mut all = vec!["colliders=[]", "gravity=[0,0,0]", "time.duration=0.2", "time.fps=10"];
+    let mut all = vec![
+        "colliders=[]",
+        "gravity=[0,0,0]",
+        "time.duration=0.2",
+        "time.fps=10",
+    ];
     all.extend(overrides);
     let mut scene = common::scene(3, &all);
     let gap = 1.05 * scene.grains.radius as f32;
@@ -169,7 +211,14 @@ fn restitution_is_what_the_scene_asks_for() {
 
 #[test]
 fn a_wall_gives_the_same_restitution_as_a_grain() {
-    let mut scene = collision(&["grains.restitution=0.6", "time.integrator=velocity_verlet", "time.steps_per_contact=50"], 0.5);
+    let mut scene = collision(
+        &[
+            "grains.restitution=0.6",
+            "time.integrator=velocity_verlet",
+            "time.steps_per_contact=50",
+        ],
+        0.5,
+    );
     let low = scene.domain.min.y;
     scene.particles.position = vec![Vec3::new(0.0, low + 1.05 * scene.grains.radius as f32, 0.0)];
     scene.particles.velocity = vec![Vec3::NEG_Y * 0.5];
@@ -185,14 +234,21 @@ fn coincident_grains_part_and_stay_finite() {
     scene.particles.position = vec![Vec3::ZERO; 2];
     let frame = run(&scene, 1).unwrap();
     let position = vectors(&frame, "position");
-    assert!(position[0].distance(position[1]) > 1.9 * scene.grains.radius, "{position:?}");
+    assert!(
+        position[0].distance(position[1]) > 1.9 * scene.grains.radius,
+        "{position:?}"
+    );
 }
 
 #[test]
 fn two_runs_give_the_same_bits_through_every_grid() {
     for addressing in ["uniform", "sliced"] {
         for storage in ["counting", "pool"] {
-            let grid = [format!("neighbors.addressing={addressing}"), format!("neighbors.storage={storage}"), "neighbors.slots=8".into()];
+            let grid = [
+                format!("neighbors.addressing={addressing}"),
+                format!("neighbors.storage={storage}"),
+                "neighbors.slots=8".into(),
+            ];
             let grid: Vec<&str> = grid.iter().map(String::as_str).collect();
             let scene = common::scene(3, &grid);
             let (one, two) = (run(&scene, 4).unwrap(), run(&scene, 4).unwrap());
@@ -233,7 +289,9 @@ fn the_guard_names_what_was_lost() {
     let mut scene = collision(&[], 0.0);
     scene.particles.velocity[1] = Vec3::new(0.0, 4.0e4, 0.0);
     let error = run(&scene, 1).expect_err("a lost grain");
-    let Error::Guard(casualty) = &error else { panic!("{error}") };
+    let Error::Guard(casualty) = &error else {
+        panic!("{error}")
+    };
     assert_eq!((casualty.id, casualty.frame), (1, 1));
     assert!(casualty.velocity[1] > 3.9e4);
     assert!(error.to_string().contains("left the domain"), "{error}");
@@ -246,7 +304,15 @@ fn the_guard_names_what_was_lost() {
 #[test]
 fn grains_rest_on_every_kind_of_obstacle() {
     for dimensions in [2, 3] {
-        let scene = common::scene(dimensions, &["grains.restitution=0.2", "grains.spring=100000", "time.duration=2", "grains.global_damping=1"]);
+        let scene = common::scene(
+            dimensions,
+            &[
+                "grains.restitution=0.2",
+                "grains.spring=100000",
+                "time.duration=2",
+                "grains.global_damping=1",
+            ],
+        );
         let frame = run(&scene, 30).unwrap();
         let statistics = frame.statistics.unwrap();
         println!("{dimensions}D: {statistics:?}");
@@ -255,9 +321,91 @@ fn grains_rest_on_every_kind_of_obstacle() {
         // Nobody inside the box obstacle, deeper than a radius.
         let inset = 0.0;
         for p in vectors(&frame, "position") {
-            let inside = p.x > 0.3 + inset && p.x < 0.4 - inset && p.y < -inset && (dimensions == 2 || p.z.abs() < 0.1 - inset);
+            let inside = p.x > 0.3 + inset
+                && p.x < 0.4 - inset
+                && p.y < -inset
+                && (dimensions == 2 || p.z.abs() < 0.1 - inset);
             assert!(!inside, "a grain inside the box at {p}");
-            assert!((p - DVec3::new(0.2, -0.1, 0.0)).length() > 0.1, "a grain inside the sphere at {p}");
+            assert!(
+                (p - DVec3::new(0.2, -0.1, 0.0)).length() > 0.1,
+                "a grain inside the sphere at {p}"
+            );
         }
     }
+}
+
+#[test]
+fn every_variant_of_the_shaders_runs_on_the_adapter() {
+    // Drivers compile each variant anew, and some stumble over one of them.
+    for dimensions in [2, 3] {
+        for integrator in ["symplectic_euler", "velocity_verlet"] {
+            for walls in ["contact", "clamp", "open"] {
+                for (name, law) in LAWS {
+                    for colliders in [true, false] {
+                        let mut overrides = vec![format!("time.integrator={integrator}"), law.to_string()];
+                        overrides.push(format!("domain.walls={walls}"));
+                        if !colliders {
+                            overrides.push("colliders=[]".into());
+                        }
+                        let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
+                        let frame = run(&common::scene(dimensions, &overrides), 1).unwrap_or_else(|error| {
+                            panic!("{dimensions}D, {integrator}, {walls}, {name}: {error}")
+                        });
+                        assert!(frame.statistics.unwrap().kinetic_energy > 0.0);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn events_change_the_run_when_they_are_due() {
+    // Gravity is switched off at 0.25 s; a ball of grains drops at 0.3 s and falls freely no more.
+    let scene = common::scene(
+        3,
+        &[
+            "colliders=[]",
+            "bodies=[{\"shape\":{\"kind\":\"sphere\",\"center\":[0,0.5,0],\"radius\":0.04}}]",
+            "events=[{\"at\":0.05,\"set\":{\"gravity\":[0,0,0]}},\
+             {\"at\":0.1,\"drop\":{\"center\":[0.3,0.5,0],\"radius\":0.04,\"velocity\":[0,1,0]}}]",
+        ],
+    );
+    assert_eq!((scene.particles.len(), scene.capacity), (1, 2));
+    let before = run(&scene, 1).unwrap();
+    let after = run(&scene, 4).unwrap();
+    assert_eq!((before.particles, after.particles), (1, 2));
+    let velocity = vectors(&after, "velocity");
+    // One step more or less of gravity.
+    let slack = 9.81 * scene.time.step;
+    assert!((velocity[0].y + 9.81 * 0.05).abs() <= slack, "{velocity:?}");
+    assert_eq!(velocity[1], DVec3::Y);
+    let climbed = vectors(&after, "position")[1].y - 0.5;
+    assert!((climbed - 0.1).abs() < 2.0 * scene.time.step, "{climbed}");
+}
+
+#[test]
+fn an_emitter_lets_grains_in_and_a_moving_obstacle_pushes_them() {
+    let scene = common::scene(
+        3,
+        &[
+            "bodies=[]",
+            "gravity=[0,0,0]",
+            "emitters=[{\"name\":\"tap\",\"center\":[0,0.6,0],\"radius\":0.12,\"velocity\":[0,-0.5,0],\"on\":false}]",
+            "events=[{\"at\":0.1,\"emitter\":{\"name\":\"tap\",\"on\":true}},\
+             {\"at\":0.3,\"emitter\":{\"name\":\"tap\",\"on\":false}}]",
+            "colliders=[{\"shape\":{\"kind\":\"box\",\"min\":[-0.2,-0.2,-0.2],\"max\":[0.2,-0.1,0.2]},\
+             \"path\":[{\"at\":0,\"offset\":[0,0,0]},{\"at\":0.5,\"offset\":[0,0.5,0]}]}]",
+        ],
+    );
+    assert_eq!(run(&scene, 2).unwrap().particles, 0);
+    let all = run(&scene, 10).unwrap();
+    assert_eq!(all.particles, scene.capacity);
+    assert!(all.particles > 5, "{}", all.particles);
+    // The box rises at 1 m/s into the falling grains; at a restitution of 0.6 they leave faster than it comes.
+    let fastest = vectors(&all, "velocity")
+        .iter()
+        .map(|v| v.y)
+        .fold(f64::MIN, f64::max);
+    assert!(fastest > 1.5, "{fastest}");
 }

@@ -8,8 +8,12 @@ use rand_chacha::ChaCha8Rng;
 use sliceflow::plan::Wanted;
 use sliceflow::scene::{Particles, Scene};
 
-const GRIDS: [(&str, &str); 4] =
-    [("uniform", "counting"), ("uniform", "pool"), ("sliced", "counting"), ("sliced", "pool")];
+const GRIDS: [(&str, &str); 4] = [
+    ("uniform", "counting"),
+    ("uniform", "pool"),
+    ("sliced", "counting"),
+    ("sliced", "pool"),
+];
 
 /// The scene of the tests with these particles at rest, through one grid.
 fn scene_of(dimensions: usize, grid: (&str, &str), axis: &str, slots: usize, points: &[Vec3]) -> Scene {
@@ -23,7 +27,10 @@ fn scene_of(dimensions: usize, grid: (&str, &str), axis: &str, slots: usize, poi
             "colliders=[]",
         ],
     );
-    scene.particles = Particles { position: points.to_vec(), velocity: vec![Vec3::ZERO; points.len()] };
+    scene.particles = Particles {
+        position: points.to_vec(),
+        velocity: vec![Vec3::ZERO; points.len()],
+    };
     scene.capacity = points.len() as u32;
     scene
 }
@@ -45,7 +52,11 @@ fn brute_force(points: &[Vec3], radius: f32) -> (Vec<u32>, Vec<u32>) {
 
 /// Compares all grids and slicing axes on a point set.
 fn check(what: &str, dimensions: usize, points: &[Vec3]) {
-    let axes: &[&str] = if dimensions == 2 { &["x", "y"] } else { &["x", "y", "z"] };
+    let axes: &[&str] = if dimensions == 2 {
+        &["x", "y"]
+    } else {
+        &["x", "y", "z"]
+    };
     for grid in GRIDS {
         for axis in axes {
             if grid.0 == "uniform" && *axis != "y" {
@@ -67,7 +78,11 @@ fn check(what: &str, dimensions: usize, points: &[Vec3]) {
 /// Lower and upper corner of the test scene's domain, which has negative coordinates.
 fn corners(dimensions: usize) -> (Vec3, Vec3, f32) {
     let scene = common::scene(dimensions, &[]);
-    (scene.domain.min, scene.domain.max, (2.0 * scene.grains.radius) as f32)
+    (
+        scene.domain.min,
+        scene.domain.max,
+        (2.0 * scene.grains.radius) as f32,
+    )
 }
 
 fn random(dimensions: usize, count: usize, seed: u64) -> Vec<Vec3> {
@@ -110,10 +125,19 @@ fn lattice_with_neighbors_at_exactly_the_radius_and_on_voxel_borders() {
             }
             check("lattice", dimensions, &points);
             // One unit in the last place to either side of each voxel face.
-            let nudged = |up: bool| points.iter().map(move |p| p.to_array().map(|x| if up { x.next_up() } else { x.next_down() }).into());
+            let nudged = |up: bool| {
+                points.iter().map(move |p| {
+                    p.to_array()
+                        .map(|x| if up { x.next_up() } else { x.next_down() })
+                        .into()
+                })
+            };
             let inside: Vec<Vec3> = nudged(true).collect();
             check("nudged up", dimensions, &inside);
-            let both: Vec<Vec3> = nudged(false).chain(points.iter().copied()).filter(|p: &Vec3| dimensions == 3 || p.z == 0.0).collect();
+            let both: Vec<Vec3> = nudged(false)
+                .chain(points.iter().copied())
+                .filter(|p: &Vec3| dimensions == 3 || p.z == 0.0)
+                .collect();
             check("nudged down", dimensions, &both);
         }
     }
@@ -124,8 +148,17 @@ fn everybody_in_one_voxel_or_at_one_point() {
     for dimensions in [2, 3] {
         let (min, _, reach) = corners(dimensions);
         let mut rng = ChaCha8Rng::seed_from_u64(3);
-        let one_voxel: Vec<Vec3> =
-            (0..60).map(|_| min + reach * 0.9 * Vec3::new(rng.random(), rng.random(), if dimensions == 3 { rng.random() } else { 0.0 })).collect();
+        let one_voxel: Vec<Vec3> = (0..60)
+            .map(|_| {
+                min + reach
+                    * 0.9
+                    * Vec3::new(
+                        rng.random(),
+                        rng.random(),
+                        if dimensions == 3 { rng.random() } else { 0.0 },
+                    )
+            })
+            .collect();
         check("one voxel, the first", dimensions, &one_voxel);
         check("coincident", dimensions, &[min + Vec3::X * reach; 50]);
     }
@@ -135,8 +168,15 @@ fn everybody_in_one_voxel_or_at_one_point() {
 fn points_beyond_the_domain() {
     // Open sides let grains leave; they belong to border voxels and lose no neighbor.
     for dimensions in [2, 3] {
-        let flat = if dimensions == 2 { Vec3::new(1.0, 1.0, 0.0) } else { Vec3::ONE };
-        let points: Vec<Vec3> = random(dimensions, 900, 4).iter().map(|p| *p * 1.6 * flat).collect();
+        let flat = if dimensions == 2 {
+            Vec3::new(1.0, 1.0, 0.0)
+        } else {
+            Vec3::ONE
+        };
+        let points: Vec<Vec3> = random(dimensions, 900, 4)
+            .iter()
+            .map(|p| *p * 1.6 * flat)
+            .collect();
         check("beyond", dimensions, &points);
     }
 }
@@ -145,12 +185,19 @@ fn points_beyond_the_domain() {
 fn a_pool_reports_what_it_has_no_room_for() {
     let (min, _, reach) = corners(3);
     let mut rng = ChaCha8Rng::seed_from_u64(5);
-    let mut points: Vec<Vec3> =
-        (0..11).map(|_| min + reach * 0.9 * Vec3::new(rng.random(), rng.random(), rng.random())).collect();
+    let mut points: Vec<Vec3> = (0..11)
+        .map(|_| min + reach * 0.9 * Vec3::new(rng.random(), rng.random(), rng.random()))
+        .collect();
     points.push(min + Vec3::ONE * 10.0 * reach);
     for addressing in ["uniform", "sliced"] {
         let scene = scene_of(3, (addressing, "pool"), "y", 4, &points);
-        let mut simulation = common::simulate(&scene, &Wanted { statistics: true, ..Default::default() });
+        let mut simulation = common::simulate(
+            &scene,
+            &Wanted {
+                statistics: true,
+                ..Default::default()
+            },
+        );
         simulation.next_frame().unwrap();
         let statistics = simulation.finish_frame().unwrap().unwrap().statistics.unwrap();
         assert_eq!(statistics.overflow, 7);
@@ -173,11 +220,27 @@ fn sliced_allocates_the_bounding_box_of_each_slice() {
     let mut boxes = std::collections::BTreeMap::new();
     for p in &points {
         let voxel = |axis: usize| ((p[axis] - grid.lower[axis]) * grid.inverse_side).floor() as i32;
-        let entry = boxes.entry(voxel(1)).or_insert([i32::MAX, i32::MAX, i32::MIN, i32::MIN]);
-        *entry = [entry[0].min(voxel(0)), entry[1].min(voxel(2)), entry[2].max(voxel(0)), entry[3].max(voxel(2))];
+        let entry = boxes
+            .entry(voxel(1))
+            .or_insert([i32::MAX, i32::MAX, i32::MIN, i32::MIN]);
+        *entry = [
+            entry[0].min(voxel(0)),
+            entry[1].min(voxel(2)),
+            entry[2].max(voxel(0)),
+            entry[3].max(voxel(2)),
+        ];
     }
-    let expected: i32 = boxes.values().map(|b| (b[2] - b[0] + 1) * (b[3] - b[1] + 1)).sum();
-    let mut simulation = common::simulate(&scene, &Wanted { statistics: true, ..Default::default() });
+    let expected: i32 = boxes
+        .values()
+        .map(|b| (b[2] - b[0] + 1) * (b[3] - b[1] + 1))
+        .sum();
+    let mut simulation = common::simulate(
+        &scene,
+        &Wanted {
+            statistics: true,
+            ..Default::default()
+        },
+    );
     simulation.next_frame().unwrap();
     let statistics = simulation.finish_frame().unwrap().unwrap().statistics.unwrap();
     assert_eq!(statistics.voxels_allocated, expected as u32);

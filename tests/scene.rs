@@ -11,12 +11,7 @@ use sliceflow::scene::{check, color_maps, library, load};
 
 fn parse(scene: &Value, overrides: &[&str]) -> Result<Scene, Error> {
     let overrides: Vec<String> = overrides.iter().map(|one| one.to_string()).collect();
-    load::parse(
-        &scene.to_string(),
-        "test.json",
-        Path::new("tests"),
-        &overrides,
-    )
+    load::parse(&scene.to_string(), "test.json", Path::new("tests"), &overrides)
 }
 
 fn valid(scene: &Value, overrides: &[&str]) -> Scene {
@@ -117,10 +112,7 @@ fn meshes_that_ship_are_unpacked_beside_the_scenes() {
     for entry in shipped.read_dir().unwrap() {
         let path = entry.unwrap().path();
         let unpacked = folder.join("../meshes").join(path.file_name().unwrap());
-        assert_eq!(
-            std::fs::read(&unpacked).unwrap(),
-            std::fs::read(&path).unwrap()
-        );
+        assert_eq!(std::fs::read(&unpacked).unwrap(), std::fs::read(&path).unwrap());
         count += 1;
     }
     assert!(count > 0);
@@ -334,11 +326,7 @@ fn bits(scene: &Scene) -> String {
 fn a_scene_a_million_metres_away_is_the_same() {
     let near = valid(&moved([0.0; 3]), &[]);
     let far = valid(&moved([1e6, -1e6, 1e6]), &[]);
-    assert!(
-        far.origin
-            .distance(near.origin + DVec3::new(1e6, -1e6, 1e6))
-            < 1e-9
-    );
+    assert!(far.origin.distance(near.origin + DVec3::new(1e6, -1e6, 1e6)) < 1e-9);
     assert!(near.particles.len() > 1000);
     assert!(bits(&near) == bits(&far));
 }
@@ -388,8 +376,7 @@ fn grains_inside_colliders_are_left_out() {
 #[test]
 fn an_open_side_lets_grains_reach_through() {
     let mut given = block();
-    given["bodies"][0]["shape"] =
-        json!({ "kind": "box", "min": [0.65, 0, 0], "max": [1.05, 0.4, 0.4] });
+    given["bodies"][0]["shape"] = json!({ "kind": "box", "min": [0.65, 0, 0], "max": [1.05, 0.4, 0.4] });
     assert!(message(&given, &[]).contains("reaches through the domain's side x_max, by 0.05 m"));
     given["domain"]["sides"] = json!({ "x_max": "open" });
     assert_eq!(valid(&given, &[]).particles.len(), 64);
@@ -435,7 +422,8 @@ fn events_keep_what_they_do_not_change() {
 #[test]
 fn a_drop_is_a_ball_of_grains() {
     let mut given = block();
-    given["events"] = json!([{ "at": 1, "drop": { "center": [0, -0.5, 0], "radius": 0.15, "velocity": [0, -2, 0] } }]);
+    given["events"] =
+        json!([{ "at": 1, "drop": { "center": [0, -0.5, 0], "radius": 0.15, "velocity": [0, -2, 0] } }]);
     let scene = valid(&given, &[]);
     let [
         Scheduled {
@@ -453,11 +441,7 @@ fn a_drop_is_a_ball_of_grains() {
             .iter()
             .all(|p| p.distance(Vec3::new(0.0, -0.5, 0.0)) < 0.1001)
     );
-    assert!(
-        ball.velocity
-            .iter()
-            .all(|v| *v == Vec3::new(0.0, -2.0, 0.0))
-    );
+    assert!(ball.velocity.iter().all(|v| *v == Vec3::new(0.0, -2.0, 0.0)));
     assert_eq!(scene.capacity, 71);
 }
 
@@ -474,11 +458,7 @@ fn an_emitter_lets_in_layers_until_it_is_switched_off() {
         { "at": 1.75, "emitter": { "name": "tap", "on": true } }
     ]);
     let scene = valid(&given, &[]);
-    let times: Vec<f64> = scene
-        .schedule
-        .iter()
-        .map(|scheduled| scheduled.time)
-        .collect();
+    let times: Vec<f64> = scene.schedule.iter().map(|scheduled| scheduled.time).collect();
     assert_eq!(times, [0.5, 0.625, 0.75, 0.875, 1.75, 1.875]);
     assert!(scene.schedule.iter().all(|scheduled| added(scheduled) == 7));
     assert_eq!(scene.capacity, 64 + 42);
@@ -566,10 +546,7 @@ fn color_ranges_come_from_the_scene() {
             "{column}"
         );
     }
-    assert_eq!(
-        valid(&block(), &["gravity=[0,0,0]"]).color.range,
-        [0.0, 1.0]
-    );
+    assert_eq!(valid(&block(), &["gravity=[0,0,0]"]).color.range, [0.0, 1.0]);
 }
 
 #[test]

@@ -12,7 +12,11 @@ use sliceflow::scene::column::{COLUMNS, Source};
 fn plans() -> Vec<Plan> {
     let wanted = Wanted {
         statistics: true,
-        columns: COLUMNS.iter().copied().filter(|c| c.source == Source::Measured).collect(),
+        columns: COLUMNS
+            .iter()
+            .copied()
+            .filter(|c| c.source == Source::Measured)
+            .collect(),
         view: None,
     };
     let mut plans = Vec::new();
@@ -78,7 +82,13 @@ fn every_planned_buffer_is_used_by_a_pass() {
         let mut used = Vec::new();
         for row in &plan.passes {
             let shader = Shader::load(&row.pass.shader, &plan.variant).unwrap();
-            used.extend(shader.resources(&row.pass.entry).unwrap().into_iter().map(|r| r.name));
+            used.extend(
+                shader
+                    .resources(&row.pass.entry)
+                    .unwrap()
+                    .into_iter()
+                    .map(|r| r.name),
+            );
         }
         for buffer in &plan.buffers {
             assert!(used.contains(&buffer.name), "no pass uses `{}`", buffer.name);
@@ -103,7 +113,11 @@ fn shared_structs_agree_offset_by_offset() {
                     .filter(|(name, ..)| !name.starts_with('_'))
                     .map(|&(name, offset, size)| (name.to_owned(), offset as u32, size as u32))
                     .collect();
-                assert_eq!(fields, layout.fields, "struct {} of {}", layout.name, row.pass.shader);
+                assert_eq!(
+                    fields, layout.fields,
+                    "struct {} of {}",
+                    layout.name, row.pass.shader
+                );
                 assert_eq!(host.size as u32, layout.size, "size of {}", layout.name);
             }
         }
@@ -115,13 +129,25 @@ fn shared_structs_agree_offset_by_offset() {
 #[test]
 fn an_error_names_the_authors_file_and_line() {
     let mut variant = sliceflow::gpu::Variant::default();
-    variant.flag("two_dimensional", true).role("addressing", "cells/nowhere").constant("SLOTS", 4);
-    let error = Shader::load("storage/pool/query", &variant).err().expect("no such file").to_string();
+    variant
+        .flag("two_dimensional", true)
+        .role("addressing", "cells/nowhere")
+        .constant("SLOTS", 4);
+    let error = Shader::load("storage/pool/query", &variant)
+        .err()
+        .expect("no such file")
+        .to_string();
     assert!(error.contains("shaders/storage/pool/query.wgsl:2"), "{error}");
     assert!(error.contains("shaders/cells/nowhere.wgsl"), "{error}");
     // Without SLOTS the module parses up to the line that names it.
     variant.constants.clear();
     variant.role("addressing", "cells/uniform");
-    let error = Shader::load("storage/pool/query", &variant).err().expect("no SLOTS").to_string();
-    assert!(error.contains("shaders/storage/pool/query.wgsl:") && error.contains("SLOTS"), "{error}");
+    let error = Shader::load("storage/pool/query", &variant)
+        .err()
+        .expect("no SLOTS")
+        .to_string();
+    assert!(
+        error.contains("shaders/storage/pool/query.wgsl:") && error.contains("SLOTS"),
+        "{error}"
+    );
 }

@@ -132,8 +132,17 @@ pub fn list() -> Vec<Listed> {
 
 /// One line an adapter, as messages name them.
 pub fn describe(info: &wgpu::AdapterInfo) -> String {
-    let Identity { name, kind, backend, driver, driver_info } = Identity::of(info);
-    format!("{name} ({kind}, {backend}, {})", format!("{driver} {driver_info}").trim())
+    let Identity {
+        name,
+        kind,
+        backend,
+        driver,
+        driver_info,
+    } = Identity::of(info);
+    format!(
+        "{name} ({kind}, {backend}, {})",
+        format!("{driver} {driver_info}").trim()
+    )
 }
 
 /// The error for a machine without a driver.

@@ -28,17 +28,19 @@ impl Pass {
         let (layout, bind_group) =
             shader.bind(gpu, &[entry], wgpu::ShaderStages::COMPUTE, buffers, textures)?;
         let module = shader.module(gpu);
-        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(entry),
-            layout: Some(&layout),
-            module: &module,
-            entry_point: Some(entry),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                zero_initialize_workgroup_memory: gpu.checked_shaders,
-                ..Default::default()
-            },
-            cache: None,
-        });
+        let pipeline = gpu
+            .device
+            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(entry),
+                layout: Some(&layout),
+                module: &module,
+                entry_point: Some(entry),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    zero_initialize_workgroup_memory: gpu.checked_shaders,
+                    ..Default::default()
+                },
+                cache: None,
+            });
         Ok(Self {
             label: entry.to_owned(),
             pipeline,

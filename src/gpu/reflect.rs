@@ -155,7 +155,9 @@ impl Shader {
             let (Some(name), TypeInner::Struct { members, span }) = (&ty.name, &ty.inner) else {
                 continue;
             };
-            let built_in = |m: &naga::StructMember| matches!(m.binding, Some(Binding::BuiltIn(_) | Binding::Location { .. }));
+            let built_in = |m: &naga::StructMember| {
+                matches!(m.binding, Some(Binding::BuiltIn(_) | Binding::Location { .. }))
+            };
             if members.iter().any(built_in) {
                 continue;
             }
@@ -214,10 +216,12 @@ impl Shader {
                 count: None,
             })
             .collect();
-        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some(&self.path),
-            entries: &layout_entries,
-        });
+        let layout = gpu
+            .device
+            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(&self.path),
+                entries: &layout_entries,
+            });
         let mut bound = Vec::new();
         for resource in &resources {
             let given = textures.iter().find(|(name, _)| *name == resource.name);
@@ -235,11 +239,13 @@ impl Shader {
             layout: &layout,
             entries: &bound,
         });
-        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(&self.path),
-            bind_group_layouts: &[Some(&layout)],
-            immediate_size: 0,
-        });
+        let pipeline_layout = gpu
+            .device
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(&self.path),
+                bind_group_layouts: &[Some(&layout)],
+                immediate_size: 0,
+            });
         Ok((pipeline_layout, group))
     }
 }

@@ -1,26 +1,32 @@
-//! Milliseconds a pass, by timestamp queries.
+//! Milliseconds a pass.
+
+use std::time::Instant;
 
 use crate::error::Result;
-use crate::gpu::{Gpu, readback};
+use crate::gpu::{Gpu, Pass, readback};
 
-/// Times up to `capacity` passes of one submission.
-pub struct Timer {
-    queries: wgpu::QuerySet,
-    resolved: wgpu::Buffer,
-    labels: Vec<String>,
-    capacity: u32,
-    /// Nanoseconds a tick.
-    period: f32,
+/// Times passes one by one.
+pub enum Timer {
+    /// Timestamp queries of the device.
+    Queries {
+        queries: wgpu::QuerySet,
+        resolved: wgpu::Buffer,
+        /// Nanoseconds a tick.
+        period: f32,
+    },
+    /// Each pass is submitted alone and waited for: software adapters stamp when they queue a pass, not when its
+    /// threads are done.
+    HostClock,
 }
 
 impl Timer {
-    /// `None` where the adapter has no timestamps.
+    /// For up to `capacity` passes at once; `None` where the adapter has no timestamps.
     pub fn new(gpu: &Gpu, capacity: u32) -> Option<Self> {
-        if !gpu.has_timestamps {
-            return None;
+        if gpu.is_software() {
+            return Some(Self::HostClock);
         }
         let count = 2 * capacity;
-        Some(Self {
+        gpu.has_timestamps.then(|| Self::Queries {
             queries: gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("pass times"),
                 ty: wgpu::QueryType::Timestamp,
@@ -32,41 +38,51 @@ impl Timer {
                 usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
                 mapped_at_creation: false,
             }),
-            labels: Vec::new(),
-            capacity,
             period: gpu.queue.get_timestamp_period(),
         })
     }
 
-    /// Where the next pass writes its begin and end; `None` when the capacity is used up.
-    pub fn writes(&mut self, label: &str) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
-        let index = self.labels.len() as u32;
-        if index >= self.capacity {
-            return None;
+    /// Runs passes with their numbers of items, in order, waits for them, and gives label and milliseconds of each.
+    pub fn run(&self, gpu: &Gpu, passes: &[(&Pass, u32)]) -> Result<Vec<(String, f64)>> {
+        match self {
+            Self::HostClock => {
+                gpu.wait(None)?;
+                let time = |(pass, items): &(&Pass, u32)| {
+                    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+                    pass.encode(&mut encoder.begin_compute_pass(&Default::default()), *items);
+                    let start = Instant::now();
+                    gpu.queue.submit([encoder.finish()]);
+                    gpu.wait(None)?;
+                    Ok((pass.label.clone(), start.elapsed().as_secs_f64() * 1e3))
+                };
+                passes.iter().map(time).collect()
+            }
+            Self::Queries {
+                queries,
+                resolved,
+                period,
+            } => {
+                let mut encoder = gpu.device.create_command_encoder(&Default::default());
+                for (index, (pass, items)) in (0..).zip(passes) {
+                    let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                        label: Some(&pass.label),
+                        timestamp_writes: Some(wgpu::ComputePassTimestampWrites {
+                            query_set: queries,
+                            beginning_of_pass_write_index: Some(2 * index),
+                            end_of_pass_write_index: Some(2 * index + 1),
+                        }),
+                    });
+                    pass.encode(&mut compute, *items);
+                }
+                let count = 2 * passes.len() as u32;
+                encoder.resolve_query_set(queries, 0..count, resolved, 0);
+                gpu.queue.submit([encoder.finish()]);
+                let ticks: Vec<u64> = readback::read(gpu, resolved, count as usize)?;
+                let milliseconds =
+                    |pair: &[u64]| pair[1].saturating_sub(pair[0]) as f64 * f64::from(*period) * 1e-6;
+                let labels = passes.iter().map(|(pass, _)| pass.label.clone());
+                Ok(labels.zip(ticks.chunks_exact(2).map(milliseconds)).collect())
+            }
         }
-        self.labels.push(label.to_owned());
-        Some(wgpu::ComputePassTimestampWrites {
-            query_set: &self.queries,
-            beginning_of_pass_write_index: Some(2 * index),
-            end_of_pass_write_index: Some(2 * index + 1),
-        })
-    }
-
-    /// Call once after the last timed pass of a submission.
-    pub fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
-        let count = 2 * self.labels.len() as u32;
-        if count > 0 {
-            encoder.resolve_query_set(&self.queries, 0..count, &self.resolved, 0);
-        }
-    }
-
-    /// Waits for the device; label and milliseconds of every pass timed since the last call, in order.
-    pub fn take(&mut self, gpu: &Gpu) -> Result<Vec<(String, f64)>> {
-        let ticks: Vec<u64> = readback::read(gpu, &self.resolved, 2 * self.labels.len())?;
-        let milliseconds = |pair: &[u64]| {
-            pair[1].saturating_sub(pair[0]) as f64 * f64::from(self.period) * 1e-6
-        };
-        let times = ticks.chunks_exact(2).map(milliseconds);
-        Ok(std::mem::take(&mut self.labels).into_iter().zip(times).collect())
     }
 }

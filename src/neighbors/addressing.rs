@@ -41,7 +41,12 @@ pub fn row(kind: Addressing) -> &'static AddressingRow {
 fn sliced(search: &mut Search) {
     let slices = u64::from(search.grid.slices());
     search.buffers.extend([
-        BufferPlan::storage("slice_bounds", slices, 16, "bounding box of each slice while it is found"),
+        BufferPlan::storage(
+            "slice_bounds",
+            slices,
+            16,
+            "bounding box of each slice while it is found",
+        ),
         BufferPlan::storage(
             "slice_record",
             slices + 1,

@@ -40,7 +40,11 @@ pub fn plan(scene: &Scene, variant: &mut Variant) -> Search {
         .flag("slicing_axis_x", slicing_axis == crate::scene::model::Axis::X)
         .flag("slicing_axis_z", slicing_axis == crate::scene::model::Axis::Z);
     let mut search = Search {
-        buffers: vec![BufferPlan::uniform("grid", Grid::LAYOUT.size, "place and size of the voxels")],
+        buffers: vec![BufferPlan::uniform(
+            "grid",
+            Grid::LAYOUT.size,
+            "place and size of the voxels",
+        )],
         passes: Vec::new(),
         grid,
     };

@@ -53,17 +53,47 @@ fn counting(search: &mut Search, capacity: u32, _slots: u32) {
         BufferPlan::storage("voxel_start", items, 4, "first particle of each voxel"),
         BufferPlan::storage("block_sum", blocks, 4, "prefix sum, blocks"),
         BufferPlan::storage("particle_voxel", particles, 4, "voxel of each particle"),
-        BufferPlan::storage("arrival", particles, 4, "place of each particle among its voxel's, as counted"),
-        BufferPlan::storage("arrived", particles, 4, "particles in voxel order, before their order is made canonical"),
+        BufferPlan::storage(
+            "arrival",
+            particles,
+            4,
+            "place of each particle among its voxel's, as counted",
+        ),
+        BufferPlan::storage(
+            "arrived",
+            particles,
+            4,
+            "particles in voxel order, before their order is made canonical",
+        ),
     ]);
     let build = "storage/counting/build";
     let scan = "storage/counting/scan";
     search.passes.extend([
-        PassPlan::new(build, "count_voxels", Items::Particles, "voxel of each particle; particles of each voxel"),
-        PassPlan::new(scan, "sum_blocks", Items::Voxels(threads), "prefix sum over voxels, first part"),
+        PassPlan::new(
+            build,
+            "count_voxels",
+            Items::Particles,
+            "voxel of each particle; particles of each voxel",
+        ),
+        PassPlan::new(
+            scan,
+            "sum_blocks",
+            Items::Voxels(threads),
+            "prefix sum over voxels, first part",
+        ),
         PassPlan::new(scan, "scan_blocks", Items::Fixed(1), "prefix sum over blocks"),
-        PassPlan::new(scan, "start_voxels", Items::Voxels(threads), "first particle of each voxel"),
-        PassPlan::new(build, "scatter_particles", Items::Particles, "indices into voxel order"),
+        PassPlan::new(
+            scan,
+            "start_voxels",
+            Items::Voxels(threads),
+            "first particle of each voxel",
+        ),
+        PassPlan::new(
+            build,
+            "scatter_particles",
+            Items::Particles,
+            "indices into voxel order",
+        ),
         PassPlan::new(
             build,
             "reorder_particles",
@@ -77,12 +107,27 @@ fn pool(search: &mut Search, _capacity: u32, slots: u32) {
     let voxels = u64::from(search.grid.capacity);
     search.buffers.extend([
         BufferPlan::storage("voxel_count", voxels, 4, "particles that fell into each voxel"),
-        BufferPlan::storage("index_pool", voxels * u64::from(slots), 4, format!("{slots} particle indices a voxel")),
+        BufferPlan::storage(
+            "index_pool",
+            voxels * u64::from(slots),
+            4,
+            format!("{slots} particle indices a voxel"),
+        ),
         BufferPlan::storage("overflow", 2, 4, "particles that found no slot"),
     ]);
     let build = "storage/pool/build";
     search.passes.extend([
-        PassPlan::new(build, "clear_voxels", Items::Voxels(search.grid.capacity), "empties the pool"),
-        PassPlan::new(build, "insert_particles", Items::Particles, "each particle's index into its voxel"),
+        PassPlan::new(
+            build,
+            "clear_voxels",
+            Items::Voxels(search.grid.capacity),
+            "empties the pool",
+        ),
+        PassPlan::new(
+            build,
+            "insert_particles",
+            Items::Particles,
+            "each particle's index into its voxel",
+        ),
     ]);
 }

@@ -10,11 +10,7 @@ use npyz::WriterBuilder;
 /// wgpu's native backends run on.
 ///
 /// The file appears under its name only when it is whole: it is written as `NAME.part` and renamed.
-pub fn write<T: npyz::AutoSerialize + Copy>(
-    path: &Path,
-    columns: usize,
-    values: &[T],
-) -> io::Result<()> {
+pub fn write<T: npyz::AutoSerialize + Copy>(path: &Path, columns: usize, values: &[T]) -> io::Result<()> {
     assert!(
         columns > 0 && values.len().is_multiple_of(columns),
         "{} values do not make rows of {columns}",
@@ -22,11 +18,7 @@ pub fn write<T: npyz::AutoSerialize + Copy>(
     );
     let rows = (values.len() / columns) as u64;
     let shape = [rows, columns as u64];
-    let shape = if columns == 1 {
-        &shape[..1]
-    } else {
-        &shape[..]
-    };
+    let shape = if columns == 1 { &shape[..1] } else { &shape[..] };
 
     let mut name = path.as_os_str().to_owned();
     name.push(".part");
@@ -59,10 +51,7 @@ mod tests {
         let array = npyz::NpyFile::new(&bytes[..]).unwrap();
         assert_eq!(array.shape(), [2, 3]);
         assert_eq!(array.order(), npyz::Order::C);
-        assert_eq!(
-            array.into_vec::<f32>().unwrap(),
-            [1.0, 2.0, 3.0, 4.0, 5.0, 6.5]
-        );
+        assert_eq!(array.into_vec::<f32>().unwrap(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.5]);
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 

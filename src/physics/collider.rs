@@ -78,7 +78,12 @@ impl Obstacles {
                     field_offset: self.field.len() as u32,
                     cell: field.cell as f32,
                     a: packed(field.min.as_vec3()),
-                    b: [field.size[0] as f32, field.size[1] as f32, field.size[2] as f32, 0.0],
+                    b: [
+                        field.size[0] as f32,
+                        field.size[1] as f32,
+                        field.size[2] as f32,
+                        0.0,
+                    ],
                     offset,
                     ..Default::default()
                 };

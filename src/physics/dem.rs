@@ -24,16 +24,22 @@ pub fn packed_bytes(dimensions: Dimensions) -> u64 {
 
 /// The contact laws that hold at some time during the run.
 fn contacts(scene: &Scene) -> impl Iterator<Item = scene::Contact> {
-    let later = scene.schedule.iter().filter_map(|scheduled| match &scheduled.action {
-        Action::SetParameters { contact, .. } => Some(*contact),
-        Action::Add(_) => None,
-    });
+    let later = scene
+        .schedule
+        .iter()
+        .filter_map(|scheduled| match &scheduled.action {
+            Action::SetParameters { contact, .. } => Some(*contact),
+            Action::Add(_) => None,
+        });
     std::iter::once(scene.grains.contact).chain(later)
 }
 
 fn has_wall(scene: &Scene, kind: Wall) -> bool {
     let axes = scene.dimensions.count();
-    scene.domain.sides[..axes].iter().flatten().any(|&wall| wall == kind)
+    scene.domain.sides[..axes]
+        .iter()
+        .flatten()
+        .any(|&wall| wall == kind)
 }
 
 /// What grains need. `columns` are those that somebody asked for, `statistics` whether figures over all grains are.
@@ -65,10 +71,18 @@ pub fn plan(
 
     let mut solver = Solver::default();
     let buffers = &mut solver.buffers;
-    buffers.push(BufferPlan::uniform("contact", Contact::LAYOUT.size, "coefficients of the contact law"));
+    buffers.push(BufferPlan::uniform(
+        "contact",
+        Contact::LAYOUT.size,
+        "coefficients of the contact law",
+    ));
     if contact_walls {
         let why = "sides of the domain that push back";
-        buffers.push(BufferPlan::uniform("contact_walls", ContactWalls::LAYOUT.size, why));
+        buffers.push(BufferPlan::uniform(
+            "contact_walls",
+            ContactWalls::LAYOUT.size,
+            why,
+        ));
     }
     if clamp_walls {
         let why = "sides of the domain that clamp (Green 2012)";
@@ -76,21 +90,38 @@ pub fn plan(
     }
     if !obstacles.colliders.is_empty() {
         let count = obstacles.colliders.len() as u64;
-        buffers.push(BufferPlan::storage("colliders", count, Collider::LAYOUT.size as u64, "obstacles"));
+        buffers.push(BufferPlan::storage(
+            "colliders",
+            count,
+            Collider::LAYOUT.size as u64,
+            "obstacles",
+        ));
     }
     if !obstacles.field.is_empty() {
         let why = "signed distances around mesh obstacles";
-        buffers.push(BufferPlan::storage("distance_field", obstacles.field.len() as u64, 4, why));
+        buffers.push(BufferPlan::storage(
+            "distance_field",
+            obstacles.field.len() as u64,
+            4,
+            why,
+        ));
     }
 
     let pass = |file: &str, entry, why: &str| {
         PassPlan::new(&format!("physics/dem/{file}"), entry, Items::Particles, why)
     };
-    let clock = PassPlan::new("physics/advance_clock", "advance_clock", Items::Fixed(1), "counts the step");
+    let clock = PassPlan::new(
+        "physics/advance_clock",
+        "advance_clock",
+        Items::Fixed(1),
+        "counts the step",
+    );
     match scene.time.integrator {
         Integrator::SymplecticEuler => {
             let why = "contact forces and symplectic Euler (Rojas 2013, Eq. 7)";
-            solver.before_search.extend([pass("symplectic_euler", "move_grains", why), clock]);
+            solver
+                .before_search
+                .extend([pass("symplectic_euler", "move_grains", why), clock]);
         }
         Integrator::VelocityVerlet => {
             variant.flag("accelerations", true);
@@ -101,19 +132,36 @@ pub fn plan(
             ] {
                 buffers.push(BufferPlan::storage(name, u64::from(scene.capacity), bytes, why));
             }
-            let drift = pass("drift", "drift", "positions move, velocities are predicted (velocity Verlet)");
+            let drift = pass(
+                "drift",
+                "drift",
+                "positions move, velocities are predicted (velocity Verlet)",
+            );
             solver.before_search.extend([drift, clock]);
             solver.after_search.extend([
-                pass("velocity_verlet", "sum_forces", "contact forces at the new positions"),
+                pass(
+                    "velocity_verlet",
+                    "sum_forces",
+                    "contact forces at the new positions",
+                ),
                 pass("kick", "kick", "corrects the predicted velocities"),
             ]);
         }
     }
 
     if statistics || !measured.is_empty() {
-        buffers.push(BufferPlan::uniform("measure", Measure::LAYOUT.size, "what measures are divided by"));
+        buffers.push(BufferPlan::uniform(
+            "measure",
+            Measure::LAYOUT.size,
+            "what measures are divided by",
+        ));
         for column in &measured {
-            buffers.push(BufferPlan::storage(column.name, u64::from(scene.capacity), 4, column.about));
+            buffers.push(BufferPlan::storage(
+                column.name,
+                u64::from(scene.capacity),
+                4,
+                column.about,
+            ));
         }
         let why = "contacts, energies and measured columns of each grain, once a frame";
         solver.measure.push(pass("measure", "measure_grains", why));
@@ -167,7 +215,11 @@ pub fn clamp_walls(scene: &Scene) -> ClampWalls {
 
 /// Where grains count as lost: a diameter beyond a side that is not open.
 pub fn guard_bounds(scene: &Scene) -> ([f32; 4], [f32; 4]) {
-    bounds(scene, |wall| wall != Wall::Open, -2.0 * scene.grains.radius as f32)
+    bounds(
+        scene,
+        |wall| wall != Wall::Open,
+        -2.0 * scene.grains.radius as f32,
+    )
 }
 
 pub fn measure(scene: &Scene, grid: &Grid) -> Measure {

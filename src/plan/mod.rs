@@ -119,7 +119,12 @@ impl Plan {
         buffers.extend(search.buffers);
         buffers.extend(solver.buffers);
 
-        let row = |phase| move |pass: &PassPlan| PassRow { phase, pass: pass.clone() };
+        let row = |phase| {
+            move |pass: &PassPlan| PassRow {
+                phase,
+                pass: pass.clone(),
+            }
+        };
         let mut passes = Vec::new();
         passes.extend(search.passes.iter().map(row(Phase::Start)));
         passes.extend(solver.after_search.iter().map(row(Phase::Start)));
@@ -150,7 +155,13 @@ impl Plan {
                 shader: draw.shader,
                 why: draw.why,
             }));
-            picture_bytes = scene.render.size.iter().map(|&side| u64::from(side)).product::<u64>() * 4;
+            picture_bytes = scene
+                .render
+                .size
+                .iter()
+                .map(|&side| u64::from(side))
+                .product::<u64>()
+                * 4;
         }
 
         let plan = Self {
@@ -189,8 +200,15 @@ impl Plan {
     /// Bytes that the neighbor search takes.
     pub fn grid_bytes(&self) -> u64 {
         const GRID: &[&str] = &[
-            "slice_bounds", "slice_record", "voxel_count", "voxel_start", "block_sum", "particle_voxel", "arrival",
-            "arrived", "index_pool",
+            "slice_bounds",
+            "slice_record",
+            "voxel_count",
+            "voxel_start",
+            "block_sum",
+            "particle_voxel",
+            "arrival",
+            "arrived",
+            "index_pool",
         ];
         let of_grid = self.buffers.iter().filter(|b| GRID.contains(&b.name.as_str()));
         of_grid.map(|b| b.bytes).sum()
@@ -205,32 +223,42 @@ impl Plan {
     }
 
     pub fn in_phase(&self, phase: Phase) -> impl Iterator<Item = &PassPlan> {
-        self.passes.iter().filter(move |row| row.phase == phase).map(|row| &row.pass)
+        self.passes
+            .iter()
+            .filter(move |row| row.phase == phase)
+            .map(|row| &row.pass)
     }
 
     /// Refuses what the adapter cannot hold, with the number that would fit.
     fn check(&self, limits: &Limits) -> Result<()> {
         let most = limits.binding.min(limits.buffer);
         if let Some(buffer) = self.buffers.iter().find(|b| b.bytes > most) {
-            let share = most as f64 / buffer.bytes as f64;
+            let fitting = |count: u32| u128::from(count) * u128::from(most) / u128::from(buffer.bytes);
             return Err(Error::Limit {
                 what: format!(
                     "buffer `{}` ({}) needs {} bytes; this adapter binds at most {most} at once",
                     buffer.name, buffer.why, buffer.bytes
                 ),
                 mend: if buffer.bytes == u64::from(self.capacity) * 16 {
-                    format!("{} particles would fit; or choose another adapter", (share * f64::from(self.capacity)) as u64)
+                    format!(
+                        "{} particles would fit; or choose another adapter",
+                        fitting(self.capacity)
+                    )
                 } else {
                     format!(
                         "{} voxels would fit instead of {}: shrink the domain, enlarge the grains, use fewer slots, or \
                          choose another adapter",
-                        (share * f64::from(self.grid.capacity)) as u64,
+                        fitting(self.grid.capacity),
                         self.grid.capacity
                     )
                 },
             });
         }
-        if let Some(texture) = self.textures.iter().find(|t| t.size[0].max(t.size[1]) > limits.texture) {
+        if let Some(texture) = self
+            .textures
+            .iter()
+            .find(|t| t.size[0].max(t.size[1]) > limits.texture)
+        {
             return Err(Error::Limit {
                 what: format!(
                     "texture `{}` needs {}×{} pixels; this adapter has at most {} a side",
@@ -256,17 +284,36 @@ fn column_bytes(scene: &Scene, column: &Column) -> u64 {
 /// Buffers of every simulation.
 fn state_buffers(scene: &Scene) -> Vec<BufferPlan> {
     let vector = dem::packed_bytes(scene.dimensions);
-    let column = |name: &str, bytes, why: &str| BufferPlan::storage(name, u64::from(scene.capacity), bytes, why);
+    let column =
+        |name: &str, bytes, why: &str| BufferPlan::storage(name, u64::from(scene.capacity), bytes, why);
     vec![
-        column("position", vector, "state, in the order that the search made; the renderer binds it too"),
+        column(
+            "position",
+            vector,
+            "state, in the order that the search made; the renderer binds it too",
+        ),
         column("velocity", vector, "state"),
         column("id", 4, "a particle's number, which travels with it"),
         column("next_position", vector, "state after a step, before the search"),
         column("next_velocity", vector, "state after a step, before the search"),
         column("next_id", 4, "state after a step, before the search"),
-        BufferPlan::uniform("parameters", Parameters::LAYOUT.size, "gravity, particle count, time step"),
-        BufferPlan::storage("clock", 1, Clock::LAYOUT.size as u64, "steps done, for the guard and moving obstacles"),
-        BufferPlan::storage("guard", 1, Guard::LAYOUT.size as u64, "the first particle that went wrong, if any"),
+        BufferPlan::uniform(
+            "parameters",
+            Parameters::LAYOUT.size,
+            "gravity, particle count, time step",
+        ),
+        BufferPlan::storage(
+            "clock",
+            1,
+            Clock::LAYOUT.size as u64,
+            "steps done, for the guard and moving obstacles",
+        ),
+        BufferPlan::storage(
+            "guard",
+            1,
+            Guard::LAYOUT.size as u64,
+            "the first particle that went wrong, if any",
+        ),
     ]
 }
 
@@ -277,12 +324,27 @@ fn statistics(scene: &Scene, grid: &Grid) -> (Vec<BufferPlan>, Vec<PassPlan>) {
     let groups = u64::from(scene.capacity.div_ceil(GROUP));
     let sums = Sums::LAYOUT.size as u64;
     let buffers = vec![
-        BufferPlan::storage("partial_sums", groups, sums, "sums of workgroups, added in a fixed order"),
+        BufferPlan::storage(
+            "partial_sums",
+            groups,
+            sums,
+            "sums of workgroups, added in a fixed order",
+        ),
         BufferPlan::storage("sums", 1, sums, "energies, greatest speed and overlap, contacts"),
-        BufferPlan::storage("occupancy_count", 1, Occupancy::LAYOUT.size as u64, "how full the voxels are"),
+        BufferPlan::storage(
+            "occupancy_count",
+            1,
+            Occupancy::LAYOUT.size as u64,
+            "how full the voxels are",
+        ),
     ];
     let passes = vec![
-        PassPlan::new("physics/total_sums", "total_sums", Items::Fixed(1), "adds the workgroups' sums"),
+        PassPlan::new(
+            "physics/total_sums",
+            "total_sums",
+            Items::Fixed(1),
+            "adds the workgroups' sums",
+        ),
         PassPlan::new(
             "storage/measure_voxels",
             "measure_voxels",

@@ -43,14 +43,7 @@ pub fn fill(
             continue;
         }
         fit::check_walls(&path, &grains.position, radius, frame, report);
-        fit::remove_inside_colliders(
-            &path,
-            &mut grains,
-            colliders,
-            radius,
-            frame.dimensions,
-            report,
-        );
+        fit::remove_inside_colliders(&path, &mut grains, colliders, radius, frame.dimensions, report);
         fit::remove_overlaps(&path, &mut grains, &placed, report);
         if i + 1 < file.bodies.len() {
             placed.add(&grains.position, i);
@@ -82,10 +75,7 @@ fn grains(
     let shape = format!("{path}.shape");
     let radius = file.grains.radius;
     if let Shape::Particles { file, placement } = &body.shape {
-        if body.spacing.is_some()
-            || body.jitter != 0.0
-            || body.arrangement != Arrangement::default()
-        {
+        if body.spacing.is_some() || body.jitter != 0.0 || body.arrangement != Arrangement::default() {
             report.problem(
                 &path,
                 "a particle file says itself where grains are",
@@ -130,26 +120,14 @@ fn grains(
             body.jitter,
             &mut random,
         ),
-        Arrangement::Random => shapes::random(
-            &region,
-            frame.dimensions,
-            radius,
-            body.fraction,
-            &mut random,
-        ),
+        Arrangement::Random => shapes::random(&region, frame.dimensions, radius, body.fraction, &mut random),
     };
     let velocity = vec![velocity; position.len()];
     Some(Grains { position, velocity })
 }
 
 /// Local coordinates.
-fn region(
-    path: &str,
-    shape: &Shape,
-    frame: &Frame,
-    folder: &Path,
-    report: &mut Report,
-) -> Option<Region> {
+fn region(path: &str, shape: &Shape, frame: &Frame, folder: &Path, report: &mut Report) -> Option<Region> {
     let mut point = |key: &str, given: &model::Coordinates| {
         let point = report.vector(&format!("{path}.{key}"), given, frame.dimensions);
         frame.local(point)

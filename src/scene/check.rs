@@ -36,10 +36,7 @@ impl<'a> Walk<'a> {
         }
         let options = alternatives(schema, "anyOf");
         if !options.is_empty() {
-            if let (false, Some(real)) = (
-                value.is_null(),
-                options.iter().find(|o| o["type"] != "null"),
-            ) {
+            if let (false, Some(real)) = (value.is_null(), options.iter().find(|o| o["type"] != "null")) {
                 self.visit(path, value, real, about);
             }
             return;
@@ -118,26 +115,16 @@ impl<'a> Walk<'a> {
                 None => {}
             }
         }
-        for key in alternatives(schema, "required")
-            .iter()
-            .filter_map(Value::as_str)
-        {
+        for key in alternatives(schema, "required").iter().filter_map(Value::as_str) {
             // A misspelled key has been reported as such.
             if !object.contains_key(key) && !meant.contains(&key) {
                 let mend = with_about("add it", self.about(&properties[key]));
-                self.problems
-                    .push(Problem::new(join(path, key), "missing", mend));
+                self.problems.push(Problem::new(join(path, key), "missing", mend));
             }
         }
     }
 
-    fn visit_array(
-        &mut self,
-        path: &str,
-        array: &[Value],
-        schema: &'a Value,
-        about: Option<&'a str>,
-    ) {
+    fn visit_array(&mut self, path: &str, array: &[Value], schema: &'a Value, about: Option<&'a str>) {
         let least = schema["minItems"].as_u64().unwrap_or(0);
         let most = schema["maxItems"].as_u64().unwrap_or(u64::MAX);
         let count = array.len() as u64;
@@ -224,10 +211,7 @@ impl<'a> Walk<'a> {
             self.problems.push(Problem::new(place, "missing", mend));
             return;
         };
-        match variants
-            .iter()
-            .find(|variant| tag(variant) == kind.as_str())
-        {
+        match variants.iter().find(|variant| tag(variant) == kind.as_str()) {
             Some(variant) if kind.is_string() => self.visit_object(path, object, variant),
             _ => self.visit_word(&place, kind, &kinds),
         }
@@ -255,9 +239,7 @@ fn tag(variant: &Value) -> Option<&str> {
 /// The words of an enum, however the schema spells it.
 fn words(schema: &Value) -> Vec<&str> {
     let own = schema["const"].as_str().into_iter();
-    let listed = alternatives(schema, "enum")
-        .iter()
-        .filter_map(Value::as_str);
+    let listed = alternatives(schema, "enum").iter().filter_map(Value::as_str);
     let nested = alternatives(schema, "oneOf").iter().flat_map(words);
     own.chain(listed).chain(nested).collect()
 }

@@ -60,11 +60,7 @@ pub const COLOR_MAPS: &[ColorMap] = &[
         CUBEHELIX,
         "black to white in a spiral of hues (Green 2011)"
     ),
-    from_colorous!(
-        "rainbow",
-        RAINBOW,
-        "all hues, cyclic; softer than a HSV rainbow"
-    ),
+    from_colorous!("rainbow", RAINBOW, "all hues, cyclic; softer than a HSV rainbow"),
     from_colorous!("sinebow", SINEBOW, "all hues, cyclic; sine waves"),
     ColorMap {
         name: "white_blue",
@@ -99,9 +95,5 @@ fn sample(gradient: Gradient, share: f64) -> [u8; 3] {
 
 fn blend(low: [u8; 3], high: [u8; 3], share: f64) -> [u8; 3] {
     let mix = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * share).round() as u8;
-    [
-        mix(low[0], high[0]),
-        mix(low[1], high[1]),
-        mix(low[2], high[2]),
-    ]
+    [mix(low[0], high[0]), mix(low[1], high[1]), mix(low[2], high[2])]
 }

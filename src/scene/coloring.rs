@@ -31,8 +31,7 @@ pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
     let flat = known.frame.dimensions == Dimensions::Two;
     let names = column::COLUMNS.iter().map(|column| column.name);
     let names = names.filter(|name| !flat || !["z", "velocity_z"].contains(name));
-    let Some(column) =
-        column::find(&color.by).filter(|column| names.clone().any(|name| name == column.name))
+    let Some(column) = column::find(&color.by).filter(|column| names.clone().any(|name| name == column.name))
     else {
         let (what, mend) = match column::find(&color.by) {
             Some(_) => (
@@ -50,9 +49,7 @@ pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
     Some(Coloring {
         column,
         map: color.map.clone(),
-        range: color
-            .range
-            .unwrap_or_else(|| default_range(column.name, known)),
+        range: color.range.unwrap_or_else(|| default_range(column.name, known)),
         legend: color.legend,
     })
 }
@@ -63,11 +60,7 @@ fn check_range([low, high]: [f64; 2], report: &mut Report) {
     let path = "render.color.range";
     if low >= high {
         let what = format!("{} is not below {}", number(low), number(high));
-        report.problem(
-            path,
-            what,
-            "give the lower value first, or leave the range out",
-        );
+        report.problem(path, what, "give the lower value first, or leave the range out");
     } else if low.abs().max(high.abs()) > LARGEST {
         let mend = format!("stay between -{0} and {0}", number(LARGEST));
         report.problem(path, "too large", mend);
@@ -110,9 +103,7 @@ fn default_range(column: &str, known: &Known) -> [f64; 2] {
             let voxel = 2.0 * file.grains.radius;
             [
                 0.0,
-                ((frame.max - frame.min)[axis] / voxel - 1e-6)
-                    .ceil()
-                    .max(1.0),
+                ((frame.max - frame.min)[axis] / voxel - 1e-6).ceil().max(1.0),
             ]
         }
         _ => [0.0, 1.0],

@@ -21,12 +21,7 @@ pub enum Source {
     Search,
 }
 
-const fn column(
-    name: &'static str,
-    unit: &'static str,
-    about: &'static str,
-    source: Source,
-) -> Column {
+const fn column(name: &'static str, unit: &'static str, about: &'static str, source: Source) -> Column {
     Column {
         name,
         unit,
@@ -93,7 +88,12 @@ pub const COLUMNS: &[Column] = &[
 
 /// Vectors, which particle files keep whole: one row a particle.
 pub const VECTORS: &[Column] = &[
-    column("position", "m", "where the grain's center is, in the scene's coordinates", Source::State),
+    column(
+        "position",
+        "m",
+        "where the grain's center is, in the scene's coordinates",
+        Source::State,
+    ),
     column("velocity", "m/s", "velocity of the grain's center", Source::State),
 ];
 

@@ -31,17 +31,16 @@ enum Loss {
 
 impl Law {
     pub fn new(grains: &Grains, report: &mut Report) -> Self {
-        let loss =
-            loss("grains", grains.damping, grains.restitution, report).unwrap_or_else(|| {
-                if grains.damping.is_none() {
-                    report.problem(
-                        "grains",
-                        "neither `restitution` nor `damping` is given",
-                        "add \"restitution\": 0.5 (1 loses nothing), or a `damping` in N·s/m",
-                    );
-                }
-                Loss::Damping(0.0)
-            });
+        let loss = loss("grains", grains.damping, grains.restitution, report).unwrap_or_else(|| {
+            if grains.damping.is_none() {
+                report.problem(
+                    "grains",
+                    "neither `restitution` nor `damping` is given",
+                    "add \"restitution\": 0.5 (1 loses nothing), or a `damping` in N·s/m",
+                );
+            }
+            Loss::Damping(0.0)
+        });
         Self {
             spring: grains.spring,
             loss,
@@ -86,12 +85,7 @@ impl Law {
     }
 }
 
-fn loss(
-    path: &str,
-    damping: Option<f64>,
-    restitution: Option<f64>,
-    report: &mut Report,
-) -> Option<Loss> {
+fn loss(path: &str, damping: Option<f64>, restitution: Option<f64>, report: &mut Report) -> Option<Loss> {
     match (damping, restitution) {
         (Some(_), Some(_)) => {
             report.problem(

@@ -23,23 +23,14 @@ pub fn flows(on_at_start: bool, switches: &[(f64, bool)], end: f64) -> Vec<(f64,
 }
 
 /// Points across `axis`, no farther than `reach` from the center: a hexagonal lattice, or a line in 2D.
-pub fn layer(
-    center: DVec3,
-    axis: DVec3,
-    reach: f64,
-    spacing: f64,
-    dimensions: Dimensions,
-) -> Vec<DVec3> {
+pub fn layer(center: DVec3, axis: DVec3, reach: f64, spacing: f64, dimensions: Dimensions) -> Vec<DVec3> {
     let reach = reach + 1e-9 * spacing;
     let steps = (reach / spacing).ceil().max(0.0) as i32;
     let mut points = Vec::new();
     if dimensions == Dimensions::Two {
         let along = DVec3::new(-axis.y, axis.x, 0.0);
         let line = (-steps..=steps).map(|i| f64::from(i) * spacing);
-        points.extend(
-            line.filter(|s| s.abs() <= reach)
-                .map(|s| center + along * s),
-        );
+        points.extend(line.filter(|s| s.abs() <= reach).map(|s| center + along * s));
         return points;
     }
     let (u, v) = axis.any_orthonormal_pair();

@@ -53,10 +53,7 @@ pub fn remove_coincident(path: &str, grains: &mut Grains, radius: f64, report: &
 pub fn check_walls(path: &str, grains: &[DVec3], radius: f64, frame: &Frame, report: &mut Report) {
     for (axis, name) in frame.axes() {
         let lowest = grains.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
-        let highest = grains
-            .iter()
-            .map(|p| p[axis])
-            .fold(f64::NEG_INFINITY, f64::max);
+        let highest = grains.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
         let [low, high] = frame.sides[axis];
         let sides = [
             ("min", low, frame.min[axis] - lowest),
@@ -65,9 +62,7 @@ pub fn check_walls(path: &str, grains: &[DVec3], radius: f64, frame: &Frame, rep
         for (end, wall, center_beyond) in sides {
             let (beyond, says) = match wall {
                 Wall::Open => (center_beyond, "grains lie outside the domain's open side"),
-                Wall::Contact | Wall::Clamp => {
-                    (center_beyond + radius, "reaches through the domain's side")
-                }
+                Wall::Contact | Wall::Clamp => (center_beyond + radius, "reaches through the domain's side"),
             };
             if beyond > radius * TOLERANCE {
                 report.problem(
@@ -111,13 +106,7 @@ pub fn remove_overlaps(path: &str, grains: &mut Grains, placed: &Placed, report:
     bodies.sort_unstable();
     let all = grains.position.len();
     for same in bodies.chunk_by(|a, b| a == b) {
-        lost(
-            path,
-            same.len(),
-            all,
-            &format!("bodies[{}]", same[0]),
-            report,
-        );
+        lost(path, same.len(), all, &format!("bodies[{}]", same[0]), report);
     }
     let kept: Vec<bool> = hits.iter().map(Option::is_none).collect();
     grains.keep(&kept);

@@ -18,12 +18,7 @@ pub struct Report {
 }
 
 impl Report {
-    pub fn problem(
-        &mut self,
-        path: impl Into<String>,
-        what: impl Into<String>,
-        mend: impl Into<String>,
-    ) {
+    pub fn problem(&mut self, path: impl Into<String>, what: impl Into<String>, mend: impl Into<String>) {
         self.problems.push(Problem::new(path, what, mend));
     }
 
@@ -48,22 +43,14 @@ impl Report {
             self.problem(
                 path,
                 format!("{} is too large", number(*far)),
-                format!(
-                    "give numbers between -{0} and {0}",
-                    number(LARGEST_COORDINATE)
-                ),
+                format!("give numbers between -{0} and {0}", number(LARGEST_COORDINATE)),
             );
         }
         DVec3::new(numbers[0], numbers[1], z)
     }
 
     /// A vector that may be left out: zero then.
-    pub fn optional(
-        &mut self,
-        path: &str,
-        given: Option<&Coordinates>,
-        dimensions: Dimensions,
-    ) -> DVec3 {
+    pub fn optional(&mut self, path: &str, given: Option<&Coordinates>, dimensions: Dimensions) -> DVec3 {
         given.map_or(DVec3::ZERO, |given| self.vector(path, given, dimensions))
     }
 }

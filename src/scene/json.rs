@@ -99,10 +99,7 @@ fn explain(text: &str, error: &serde_json::Error) -> Problem {
 fn mend_for(what: &str) -> &'static str {
     const MENDS: &[(&str, &str)] = &[
         ("twice", "keep one of them"),
-        (
-            "trailing comma",
-            "remove the comma before the closing bracket",
-        ),
+        ("trailing comma", "remove the comma before the closing bracket"),
         (
             "expected `,` or",
             "put a comma between entries, or close the bracket",
@@ -110,10 +107,7 @@ fn mend_for(what: &str) -> &'static str {
         ("expected `:`", "put a colon between key and value"),
         ("key must be a string", "put the key in double quotes"),
         ("EOF", "close every `{`, `[` and `\"` that is open"),
-        (
-            "trailing characters",
-            "remove what follows the scene's last `}`",
-        ),
+        ("trailing characters", "remove what follows the scene's last `}`"),
         ("invalid number", "write numbers as 1, -0.5 or 2.5e-3"),
         ("control character", "write a line break inside text as \\n"),
     ];

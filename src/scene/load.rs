@@ -25,12 +25,7 @@ pub fn load(path: &Path, overrides: &[String]) -> Result<Scene> {
     }
     let name = path.to_string_lossy();
     match library::find(&name) {
-        Some(text) => parse(
-            text,
-            &format!("{name}.json"),
-            &library::folder()?,
-            overrides,
-        ),
+        Some(text) => parse(text, &format!("{name}.json"), &library::folder()?, overrides),
         None => Err(library::unknown(&name)),
     }
 }

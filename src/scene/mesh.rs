@@ -42,10 +42,11 @@ impl Mesh {
 
     /// Lower and upper corner, metres; (∞, −∞) without vertices.
     pub fn bounds(&self) -> (DVec3, DVec3) {
-        self.vertices.iter().fold(
-            (DVec3::INFINITY, DVec3::NEG_INFINITY),
-            |(low, high), &vertex| (low.min(vertex), high.max(vertex)),
-        )
+        self.vertices
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &vertex| {
+                (low.min(vertex), high.max(vertex))
+            })
     }
 
     /// Edges that bound more triangles on one side than on the other; 0 means closed, so that an inside exists.
@@ -85,10 +86,7 @@ impl Mesh {
             .map(|triangle| triangle.map(|index| joined[index as usize]))
             .filter(|[a, b, c]| a != b && b != c && c != a)
             .collect();
-        Mesh {
-            vertices,
-            triangles,
-        }
+        Mesh { vertices, triangles }
     }
 
     /// Turns all faces the same way within each connected part if they are not, and the whole outward.

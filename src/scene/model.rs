@@ -464,9 +464,9 @@ impl Default for Neighbors {
 #[serde(rename_all = "snake_case")]
 pub enum Addressing {
     /// The whole domain (Green 2012).
-    #[default]
     Uniform,
-    /// The bounding box of each slice (Harada 2007).
+    /// The bounding box of each slice (Harada 2007); as fast as `uniform` in a full box, faster in others.
+    #[default]
     Sliced,
 }
 

@@ -30,13 +30,7 @@ pub fn colliders(
                 "give each collider its own",
             );
         }
-        let Some(shape) = shape(
-            &format!("{path}.shape"),
-            &given.shape,
-            frame,
-            folder,
-            report,
-        ) else {
+        let Some(shape) = shape(&format!("{path}.shape"), &given.shape, frame, folder, report) else {
             continue;
         };
         let color = color_maps::parse_hex(&given.color).unwrap_or_else(|| {
@@ -78,11 +72,7 @@ fn motion(
         }
     }
     let point = |(i, point): (usize, &model::PathPoint)| {
-        let offset = report.vector(
-            &format!("{path}[{i}].offset"),
-            &point.offset,
-            frame.dimensions,
-        );
+        let offset = report.vector(&format!("{path}[{i}].offset"), &point.offset, frame.dimensions);
         (point.at, offset.as_vec3())
     };
     points.iter().enumerate().map(point).collect()
@@ -137,13 +127,7 @@ fn shape(
 }
 
 /// Whether a box's corners are in order; a problem if not.
-pub fn check_corners(
-    path: &str,
-    min: DVec3,
-    max: DVec3,
-    frame: &Frame,
-    report: &mut Report,
-) -> bool {
+pub fn check_corners(path: &str, min: DVec3, max: DVec3, frame: &Frame, report: &mut Report) -> bool {
     let wrong = frame.axes().find(|(axis, _)| min[*axis] >= max[*axis]);
     if let Some((_, name)) = wrong {
         report.problem(
@@ -192,8 +176,7 @@ pub fn mesh(
     Some(mesh.placed(placement.scale, rotate, translate))
 }
 
-pub const FILE_MEND: &str =
-    "check the path, which is relative to the scene file, and the file itself";
+pub const FILE_MEND: &str = "check the path, which is relative to the scene file, and the file itself";
 
 /// Degrees about the axes, and the move in local coordinates, metres.
 pub fn turn_and_place(
@@ -263,9 +246,10 @@ impl<'a> Obstacle<'a> {
                 center: middle,
                 radius,
             } => center.distance(middle.as_dvec3()) < f64::from(*radius) + reach,
-            ColliderShape::Mesh(_) => self.surface.as_ref().is_some_and(|surface| {
-                surface.distance(center, reach) < reach || surface.contains(center)
-            }),
+            ColliderShape::Mesh(_) => self
+                .surface
+                .as_ref()
+                .is_some_and(|surface| surface.distance(center, reach) < reach || surface.contains(center)),
         }
     }
 }
@@ -283,19 +267,14 @@ mod tests {
             min: min.as_vec3(),
             max: max.as_vec3(),
         };
-        let [triangles, exact] =
-            [&triangles, &exact].map(|shape| Obstacle::new(shape, Dimensions::Three));
+        let [triangles, exact] = [&triangles, &exact].map(|shape| Obstacle::new(shape, Dimensions::Three));
         let ticks = [-1.7, -0.9, -0.3, 0.4, 0.6, 0.9, 1.3, 2.2];
         for reach in [0.05, 0.3, 0.7] {
             let mut touching = 0;
             for (x, y, z) in (0..512).map(|i| (ticks[i % 8], ticks[i / 8 % 8], ticks[i / 64])) {
                 let point = DVec3::new(x, y, z);
                 let expected = exact.touches(point, reach);
-                assert_eq!(
-                    triangles.touches(point, reach),
-                    expected,
-                    "{point}, {reach}"
-                );
+                assert_eq!(triangles.touches(point, reach), expected, "{point}, {reach}");
                 touching += usize::from(expected);
             }
             assert!(touching >= 3 * 4 * 2);

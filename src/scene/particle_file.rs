@@ -198,10 +198,7 @@ fn from_csv(path: &Path) -> Result<Table, String> {
         (0..cells.len()).map(Some).collect()
     } else {
         lines.next();
-        cells
-            .iter()
-            .map(|cell| column(cell.trim_matches('"')))
-            .collect()
+        cells.iter().map(|cell| column(cell.trim_matches('"'))).collect()
     };
     for &index in columns.iter().flatten() {
         if std::mem::replace(&mut table.present[index], true) {
@@ -310,17 +307,12 @@ mod tests {
             )
         };
         let rows = [
-            (
-                [0.5f32, 2.0],
-                0.1f64,
-                [3.0f32, -4.0, 1e-3],
-                4_000_000_000u32,
-            ),
+            ([0.5f32, 2.0], 0.1f64, [3.0f32, -4.0, 1e-3], 4_000_000_000u32),
             ([-1.5, 0.25], 7.0, [0.0, 0.0, 9.0], 3),
         ];
         let binary = |big: bool| {
-            let mut bytes = header(["binary_little_endian", "binary_big_endian"][usize::from(big)])
-                .into_bytes();
+            let mut bytes =
+                header(["binary_little_endian", "binary_big_endian"][usize::from(big)]).into_bytes();
             let mut put = |mut number: Vec<u8>| {
                 if big {
                     number.reverse();
@@ -376,10 +368,7 @@ mod tests {
         );
         assert_eq!((loaded.velocity, loaded.id), (None, None));
         let deep = file(&folder, "deep.csv", "1,2,3");
-        assert_eq!(
-            load(&deep, Three).unwrap().position,
-            [DVec3::new(1.0, 2.0, 3.0)]
-        );
+        assert_eq!(load(&deep, Three).unwrap().position, [DVec3::new(1.0, 2.0, 3.0)]);
     }
 
     #[test]
@@ -440,12 +429,7 @@ mod tests {
                 Three,
                 "line 1: 4 columns without a header",
             ),
-            (
-                "e.csv",
-                "x,y\n0,zero\n".into(),
-                Two,
-                "line 2: y is \"zero\"",
-            ),
+            ("e.csv", "x,y\n0,zero\n".into(), Two, "line 2: y is \"zero\""),
             ("f.csv", String::new(), Two, "empty"),
             ("g.csv", "x,y\n".into(), Two, "no particles"),
             ("h.csv", "x,y\n0,0\n".into(), Three, "z is missing"),
@@ -461,20 +445,10 @@ mod tests {
                 Two,
                 "line 4: id 5 is that of line 2",
             ),
-            (
-                "k.csv",
-                "x,y,id\n0,0,1.5\n".into(),
-                Two,
-                "line 2: id is 1.5",
-            ),
+            ("k.csv", "x,y,id\n0,0,1.5\n".into(), Two, "line 2: id is 1.5"),
             ("l.csv", "x,y,id\n0,0,-1\n".into(), Two, "line 2: id is -1"),
             ("m.csv", "x,y,vx\n0,0,1\n".into(), Two, "1 of 2 components"),
-            (
-                "n.csv",
-                "x,y,X\n0,0,1\n".into(),
-                Two,
-                "column x is there twice",
-            ),
+            ("n.csv", "x,y,X\n0,0,1\n".into(), Two, "column x is there twice"),
             (
                 "o.csv",
                 "x,y,vx,vy,vz\n0,0,0,0,2\n".into(),

@@ -25,18 +25,12 @@ pub fn read(path: &Path) -> Result<PlyFile, String> {
         format!(
             "{} is not a readable PLY file: {}; export it again as PLY 1.0, with finite numbers",
             path.display(),
-            error
-                .lines()
-                .next()
-                .unwrap_or_default()
-                .trim_end_matches('.')
+            error.lines().next().unwrap_or_default().trim_end_matches('.')
         )
     };
 
     let mut reader = Reader::new(BufReader::new(file));
-    let header = Parser::<Row>::new()
-        .read_header(&mut reader)
-        .map_err(explain)?;
+    let header = Parser::<Row>::new().read_header(&mut reader).map_err(explain)?;
     let mut ply = PlyFile {
         properties: Vec::new(),
         vertices: Vec::new(),

@@ -99,11 +99,7 @@ impl Unroll<'_> {
             && event.emitter.is_none()
             && event.move_collider.is_none()
         {
-            report.problem(
-                path,
-                "does nothing",
-                "add `set`, `drop`, `emitter` or `move`",
-            );
+            report.problem(path, "does nothing", "add `set`, `drop`, `emitter` or `move`");
         }
         let time = event.at;
         let act = |action: Action| Scheduled { time, action };
@@ -111,9 +107,7 @@ impl Unroll<'_> {
             let place = format!("{path}.set");
             let law = self.law.changed(&place, change, report);
             let gravity = match &change.gravity {
-                Some(gravity) => {
-                    report.vector(&format!("{place}.gravity"), gravity, self.frame.dimensions)
-                }
+                Some(gravity) => report.vector(&format!("{place}.gravity"), gravity, self.frame.dimensions),
                 None => self.gravity,
             };
             if happens {
@@ -121,8 +115,7 @@ impl Unroll<'_> {
                 let contact = law.contact(self.mass);
                 self.contacts.push(contact);
                 let gravity = gravity.as_vec3();
-                self.actions
-                    .push(act(Action::SetParameters { gravity, contact }));
+                self.actions.push(act(Action::SetParameters { gravity, contact }));
             }
         }
         if event.drop.is_some() {
@@ -132,11 +125,7 @@ impl Unroll<'_> {
             }
         }
         if let Some(switch) = &event.emitter {
-            let names = self
-                .file
-                .emitters
-                .iter()
-                .map(|emitter| emitter.name.as_str());
+            let names = self.file.emitters.iter().map(|emitter| emitter.name.as_str());
             match names.clone().position(|name| name == switch.name) {
                 Some(i) => self.switches[i].push((time, switch.on)),
                 None => unknown(
@@ -161,11 +150,7 @@ impl Unroll<'_> {
                 Some(i) if happens => self.moves[i].push(Shift { start, end, by }),
                 Some(_) => {}
                 None => {
-                    let names = self
-                        .file
-                        .colliders
-                        .iter()
-                        .map(|collider| collider.name.as_str());
+                    let names = self.file.colliders.iter().map(|collider| collider.name.as_str());
                     // A collider that is itself wrong has its own message.
                     if !names.clone().any(|name| name == given.collider) {
                         let named = names.filter(|name| !name.is_empty());
@@ -179,11 +164,7 @@ impl Unroll<'_> {
     /// A ball of grains on a lattice.
     fn drop(&self, path: &str, event: &Event, report: &mut Report) -> Option<Particles> {
         let drop = event.drop.as_ref()?;
-        let center = report.vector(
-            &format!("{path}.center"),
-            &drop.center,
-            self.frame.dimensions,
-        );
+        let center = report.vector(&format!("{path}.center"), &drop.center, self.frame.dimensions);
         let center = self.frame.local(center);
         let velocity = report.optional(
             &format!("{path}.velocity"),
@@ -234,11 +215,7 @@ impl Unroll<'_> {
                 "give each emitter its own",
             );
         }
-        let center = report.vector(
-            &format!("{path}.center"),
-            &emitter.center,
-            self.frame.dimensions,
-        );
+        let center = report.vector(&format!("{path}.center"), &emitter.center, self.frame.dimensions);
         let center = self.frame.local(center);
         let place = format!("{path}.velocity");
         let velocity = report.vector(&place, &emitter.velocity, self.frame.dimensions);
@@ -302,14 +279,7 @@ impl Unroll<'_> {
         }
     }
 
-    fn check_inside(
-        &self,
-        path: &str,
-        thing: &str,
-        center: DVec3,
-        extent: DVec3,
-        report: &mut Report,
-    ) {
+    fn check_inside(&self, path: &str, thing: &str, center: DVec3, extent: DVec3, report: &mut Report) {
         for (axis, name) in self.frame.axes() {
             let below = self.frame.min[axis] - (center - extent)[axis];
             let above = (center + extent)[axis] - self.frame.max[axis];

@@ -193,8 +193,7 @@ impl<'a> Interior<'a> {
         let room = self.radius - self.tolerance;
         match self.region {
             Region::Box { .. } => {
-                point.cmpge(self.min - self.tolerance).all()
-                    && point.cmple(self.max + self.tolerance).all()
+                point.cmpge(self.min - self.tolerance).all() && point.cmple(self.max + self.tolerance).all()
             }
             Region::Sphere { center, radius } => {
                 let center = match self.dimensions {

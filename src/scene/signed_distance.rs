@@ -135,10 +135,7 @@ mod tests {
                     let node = field.min + DVec3::new(i.into(), j.into(), k.into()) * field.cell;
                     let expected = exact(node).clamp(-margin, margin);
                     let found = f64::from(field.values[index]);
-                    assert!(
-                        (found - expected).abs() < 1e-6,
-                        "{node}: {found} {expected}"
-                    );
+                    assert!((found - expected).abs() < 1e-6, "{node}: {found} {expected}");
                     assert!((field.sample(node) - found).abs() < 1e-12);
                     index += 1;
                 }

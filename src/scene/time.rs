@@ -28,13 +28,7 @@ pub fn frames(time: &model::Time, report: &mut Report) -> u32 {
 }
 
 /// The step that resolves each of `contacts` (those that hold at any time of the run) and fits frames.
-pub fn time(
-    time: &model::Time,
-    frames: u32,
-    contacts: &[Contact],
-    mass: f64,
-    report: &mut Report,
-) -> Time {
+pub fn time(time: &model::Time, frames: u32, contacts: &[Contact], mass: f64, report: &mut Report) -> Time {
     let shortest = contacts
         .iter()
         .map(|contact| contact.duration(mass))
@@ -42,10 +36,7 @@ pub fn time(
     let coarsest = shortest / FEWEST_STEPS_PER_CONTACT;
     let (mut step, mut limited_by) = match time.step {
         Some(step) => (step, "scene's step"),
-        None => (
-            shortest / f64::from(time.steps_per_contact),
-            "contact duration",
-        ),
+        None => (shortest / f64::from(time.steps_per_contact), "contact duration"),
     };
     if step > coarsest * (1.0 + 1e-9) {
         report.problem(

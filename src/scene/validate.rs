@@ -76,11 +76,7 @@ pub(super) fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Prob
 }
 
 fn vector(numbers: &[f64]) -> DVec3 {
-    DVec3::new(
-        numbers[0],
-        numbers[1],
-        numbers.get(2).copied().unwrap_or(0.0),
-    )
+    DVec3::new(numbers[0], numbers[1], numbers.get(2).copied().unwrap_or(0.0))
 }
 
 /// Of one grain, kilograms: a ball, or a disc one metre thick.
@@ -94,19 +90,13 @@ fn mass(file: &SceneFile, dimensions: Dimensions) -> f64 {
 }
 
 /// Particles when everything has happened.
-fn capacity(
-    file: &SceneFile,
-    at_start: usize,
-    schedule: &[super::Scheduled],
-    report: &mut Report,
-) -> u32 {
+fn capacity(file: &SceneFile, at_start: usize, schedule: &[super::Scheduled], report: &mut Report) -> u32 {
     let added = schedule.iter().map(|scheduled| match &scheduled.action {
         Action::Add(particles) => particles.len(),
         Action::SetParameters { .. } => 0,
     });
     let all = (at_start + added.sum::<usize>()) as u64;
-    let comes_later =
-        !file.emitters.is_empty() || file.events.iter().any(|event| event.drop.is_some());
+    let comes_later = !file.emitters.is_empty() || file.events.iter().any(|event| event.drop.is_some());
     if file.bodies.is_empty() && !comes_later {
         report.problem(
             "",

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use crate::plan::{Plan, has_buffer};
 use crate::physics::layout::{Occupancy, Overflow, Sums};
+use crate::plan::{Plan, has_buffer};
 use crate::scene::column::{Column, Source};
 use crate::scene::{Dimensions, Scene};
 
@@ -84,9 +84,15 @@ pub enum Values {
     Float(Vec<f32>),
     Unsigned(Vec<u32>),
     /// So many numbers a particle.
-    Vector { columns: usize, values: Vec<f32> },
+    Vector {
+        columns: usize,
+        values: Vec<f32>,
+    },
     /// So many numbers a particle; positions, which stay exact far from zero.
-    Double { columns: usize, values: Vec<f64> },
+    Double {
+        columns: usize,
+        values: Vec<f64>,
+    },
 }
 
 /// Device buffers that the wanted columns are made from, in a fixed order.
@@ -127,12 +133,16 @@ pub(super) fn columns(scene: &Scene, plan: &Plan, raw: &BTreeMap<&str, &[u8]>) -
         glam::Vec3::from_array(v)
     };
     let global = |slot: usize| -> DVec3 { vector(&position, slot).as_dvec3() + scene.origin };
-    let floats = |of: &dyn Fn(usize) -> f64| Values::Float(slot_of.iter().map(|&slot| of(slot) as f32).collect());
+    let floats =
+        |of: &dyn Fn(usize) -> f64| Values::Float(slot_of.iter().map(|&slot| of(slot) as f32).collect());
     let column = |column: &Column| {
         let values = match column.name {
             "position" => Values::Double {
                 columns: dimensions,
-                values: slot_of.iter().flat_map(|&s| global(s).to_array().into_iter().take(dimensions)).collect(),
+                values: slot_of
+                    .iter()
+                    .flat_map(|&s| global(s).to_array().into_iter().take(dimensions))
+                    .collect(),
             },
             "velocity" => Values::Vector {
                 columns: dimensions,
@@ -163,7 +173,10 @@ pub(super) fn columns(scene: &Scene, plan: &Plan, raw: &BTreeMap<&str, &[u8]>) -
                 floats(&|s| f64::from(values[s]))
             }
         };
-        ColumnData { name: column.name, values }
+        ColumnData {
+            name: column.name,
+            values,
+        }
     };
     plan.wanted.columns.iter().map(column).collect()
 }

@@ -46,6 +46,8 @@ pub struct Simulation {
     renderer: Option<Renderer>,
     ring: Ring<Pending>,
     timer: Option<Timer>,
+    /// Of the last step that was timed.
+    pass_ms: Vec<(String, f64)>,
     next_frame: u32,
     /// Particles that exist.
     count: u32,
@@ -79,10 +81,16 @@ impl Simulation {
             plan.in_phase(phase)
                 .map(|planned: &PassPlan| {
                     if !shaders.contains_key(&planned.shader) {
-                        shaders.insert(planned.shader.clone(), Shader::load(&planned.shader, &plan.variant)?);
+                        shaders.insert(
+                            planned.shader.clone(),
+                            Shader::load(&planned.shader, &plan.variant)?,
+                        );
                     }
                     let pass = Pass::new(&gpu, &shaders[&planned.shader], &planned.entry, &buffers)?;
-                    Ok(Step { pass, items: planned.items })
+                    Ok(Step {
+                        pass,
+                        items: planned.items,
+                    })
                 })
                 .collect()
         };
@@ -94,6 +102,7 @@ impl Simulation {
             renderer,
             ring: Ring::new(FRAMES_UNDER_WAY),
             timer: None,
+            pass_ms: Vec::new(),
             next_frame: 0,
             count: 0,
             gravity: scene.gravity,
@@ -121,7 +130,11 @@ impl Simulation {
     fn write_constants(&self) -> Result<()> {
         let (gpu, buffers, scene) = (&self.gpu, &self.buffers, &self.scene);
         let (lower, upper) = dem::guard_bounds(scene);
-        let guard = Guard { lower, upper, ..Default::default() };
+        let guard = Guard {
+            lower,
+            upper,
+            ..Default::default()
+        };
         buffers.write(gpu, "guard", 0, &[guard])?;
         buffers.write(gpu, "grid", 0, &[self.plan.grid])?;
         if buffers.contains("contact_walls") {
@@ -228,7 +241,10 @@ impl Simulation {
         let first = self.count as usize;
         let ids: Vec<u32> = (self.count..self.count + particles.len() as u32).collect();
         self.buffers.write(&self.gpu, "next_id", first, &ids)?;
-        for (name, values) in [("next_position", &particles.position), ("next_velocity", &particles.velocity)] {
+        for (name, values) in [
+            ("next_position", &particles.position),
+            ("next_velocity", &particles.velocity),
+        ] {
             match self.scene.dimensions {
                 Dimensions::Two => {
                     let packed: Vec<[f32; 2]> = values.iter().map(|v| [v.x, v.y]).collect();
@@ -249,7 +265,10 @@ impl Simulation {
             ("id", "next_id", 4 * u64::from(self.count)),
         ] {
             if bytes > 0 && self.buffers.contains(name) {
-                let (from, to) = (self.buffers.get(name, "(host)")?, self.buffers.get(next, "(host)")?);
+                let (from, to) = (
+                    self.buffers.get(name, "(host)")?,
+                    self.buffers.get(next, "(host)")?,
+                );
                 encoder.copy_buffer_to_buffer(from, 0, to, 0, bytes);
             }
         }
@@ -265,32 +284,43 @@ impl Simulation {
         Ok(())
     }
 
-    fn run_steps(&mut self, steps: u32, times_last: bool) -> Result<()> {
+    /// Runs steps; a frame's last one is timed pass by pass where times are wanted.
+    fn run_steps(&mut self, steps: u32, ends_frame: bool) -> Result<()> {
         if self.count == 0 {
             return Ok(());
         }
-        let mut left = steps;
+        let timed = u32::from(ends_frame && self.timer.is_some());
+        let mut left = steps - timed;
         while left > 0 {
             let now = left.min(STEPS_PER_SUBMISSION);
             left -= now;
             let mut encoder = self.encoder("steps");
-            let timed = u32::from(times_last && left == 0 && self.timer.is_some());
-            {
-                let mut compute = encoder.begin_compute_pass(&Default::default());
-                for _ in 0..now - timed {
-                    for step in &self.step {
-                        self.encode(step, &mut compute);
-                    }
+            let mut compute = encoder.begin_compute_pass(&Default::default());
+            for _ in 0..now {
+                for step in &self.step {
+                    self.encode(step, &mut compute);
                 }
             }
-            if timed == 1 {
-                let mut timer = self.timer.take();
-                self.encode_timed(&self.step, &mut encoder, timer.as_mut());
-                self.timer = timer;
-            }
+            drop(compute);
             self.gpu.queue.submit([encoder.finish()]);
         }
+        if timed == 1 {
+            self.pass_ms = self.time(&self.step)?;
+        }
         Ok(())
+    }
+
+    /// Runs passes one by one, with their milliseconds when there is a timer.
+    fn time(&self, steps: &[Step]) -> Result<Vec<(String, f64)>> {
+        let Some(timer) = &self.timer else {
+            return Ok(Vec::new());
+        };
+        let with_items = |step| -> (&Pass, u32) {
+            let Step { pass, items }: &Step = step;
+            (pass, Plan::threads(*items, self.count))
+        };
+        let passes: Vec<_> = steps.iter().map(with_items).collect();
+        timer.run(&self.gpu, &passes)
     }
 
     fn encoder(&self, label: &str) -> wgpu::CommandEncoder {
@@ -302,64 +332,65 @@ impl Simulation {
         step.pass.encode(compute, Plan::threads(step.items, self.count));
     }
 
-    /// Each pass on its own, with its time when there is a timer.
-    fn encode_timed(&self, steps: &[Step], encoder: &mut wgpu::CommandEncoder, mut timer: Option<&mut Timer>) {
-        for step in steps {
-            let writes = timer.as_mut().and_then(|timer| timer.writes(&step.pass.label));
-            let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                label: Some(&step.pass.label),
-                timestamp_writes: writes,
-            });
-            self.encode(step, &mut compute);
-        }
-    }
-
     /// Observes, draws, and copies what is wanted into the staging ring.
     fn send_frame(&mut self, index: u32) -> Result<Option<Frame>> {
         let mut encoder = self.encoder("frame");
         if let Ok(counted) = self.buffers.get("occupancy_count", "(host)") {
             encoder.clear_buffer(counted, 0, None);
         }
-        let mut timer = self.timer.take();
+        let mut pass_ms = std::mem::take(&mut self.pass_ms);
         if self.count > 0 {
-            self.encode_timed(&self.observe, &mut encoder, timer.as_mut());
+            if self.timer.is_some() {
+                let cleared = std::mem::replace(&mut encoder, self.encoder("frame"));
+                self.gpu.queue.submit([cleared.finish()]);
+                pass_ms.extend(self.time(&self.observe)?);
+            } else {
+                let mut compute = encoder.begin_compute_pass(&Default::default());
+                for step in &self.observe {
+                    self.encode(step, &mut compute);
+                }
+            }
         }
-        let mut pass_ms = Vec::new();
-        if let Some(timer) = &mut timer {
-            timer.resolve(&mut encoder);
-            let timed = std::mem::replace(&mut encoder, self.encoder("frame"));
-            self.gpu.queue.submit([timed.finish()]);
-            pass_ms = timer.take(&self.gpu)?;
-        }
-        self.timer = timer;
         if let Some(renderer) = &self.renderer {
             let time = f64::from(index) / self.scene.time.fps;
-            let offsets: Vec<Vec3> = self.scene.colliders.iter().map(|c| offset_at(&c.path, time)).collect();
+            let offsets: Vec<Vec3> = self
+                .scene
+                .colliders
+                .iter()
+                .map(|c| offset_at(&c.path, time))
+                .collect();
             renderer.draw(&self.gpu, &mut encoder, self.count, time, &offsets)?;
         }
 
         let parts = self.parts();
         let bytes = parts.iter().map(|(_, bytes)| bytes).sum();
-        let pending = Pending { index, particles: self.count, pass_ms, parts: parts.clone() };
+        let pending = Pending {
+            index,
+            particles: self.count,
+            pass_ms,
+            parts: parts.clone(),
+        };
         let buffers = &self.buffers;
         let mut missing = None;
-        let oldest = self.ring.send(&self.gpu, encoder, bytes, pending, |encoder, staging| {
-            let mut offset = 0;
-            for (name, bytes) in &parts {
-                match buffers.get(name, "(host)") {
-                    Ok(buffer) if *bytes > 0 => {
-                        encoder.copy_buffer_to_buffer(buffer, 0, staging, offset, *bytes);
-                        offset += bytes;
-                        if *name == "overflow" {
-                            // The second field of `Overflow` counts from frame to frame.
-                            encoder.clear_buffer(buffer, 4, Some(4));
+        let oldest = self
+            .ring
+            .send(&self.gpu, encoder, bytes, pending, |encoder, staging| {
+                let mut offset = 0;
+                for (name, bytes) in &parts {
+                    match buffers.get(name, "(host)") {
+                        Ok(buffer) if *bytes > 0 => {
+                            encoder.copy_buffer_to_buffer(buffer, 0, staging, offset, *bytes);
+                            offset += bytes;
+                            if *name == "overflow" {
+                                // The second field of `Overflow` counts from frame to frame.
+                                encoder.clear_buffer(buffer, 4, Some(4));
+                            }
                         }
+                        Ok(_) => {}
+                        Err(error) => missing = Some(error),
                     }
-                    Ok(_) => {}
-                    Err(error) => missing = Some(error),
                 }
-            }
-        })?;
+            })?;
         if let Some(error) = missing {
             return Err(error);
         }
@@ -409,7 +440,9 @@ impl Simulation {
             return Err(self.casualty(&guard));
         }
         let clock: Clock = bytemuck::pod_read_unaligned(by_name["clock"]);
-        let overflow = by_name.get("overflow").map_or_else(Overflow::default, |b| bytemuck::pod_read_unaligned(b));
+        let overflow = by_name
+            .get("overflow")
+            .map_or_else(Overflow::default, |b| bytemuck::pod_read_unaligned(b));
         let statistics = self.plan.wanted.statistics.then(|| {
             let sums: Sums = bytemuck::pod_read_unaligned(by_name["sums"]);
             let occupancy: Occupancy = bytemuck::pod_read_unaligned(by_name["occupancy_count"]);

@@ -18,7 +18,10 @@ impl Simulation {
         let count = self.count as usize;
         let mut start = vec![0u32; count + 1];
         if count == 0 {
-            return Ok(NeighborLists { start, ids: Vec::new() });
+            return Ok(NeighborLists {
+                start,
+                ids: Vec::new(),
+            });
         }
         let shader = Shader::load("storage/list_neighbors", &self.plan.variant)?;
         let gpu = &self.gpu;

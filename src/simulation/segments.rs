@@ -33,7 +33,11 @@ pub fn segments(scene: &Scene, interval: u32) -> Vec<Segment> {
     cuts.dedup();
     let due = |step: u32| {
         let is_due = |at: f64| step_at(at).is_some_and(|s| s <= step);
-        scene.schedule.iter().take_while(|scheduled| is_due(scheduled.time)).count()
+        scene
+            .schedule
+            .iter()
+            .take_while(|scheduled| is_due(scheduled.time))
+            .count()
     };
     cuts.windows(2)
         .map(|pair| Segment {

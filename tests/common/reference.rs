@@ -65,7 +65,8 @@ impl Reference {
                 let r = other - x;
                 if i != j && r.length() < 2.0 * self.radius {
                     let overlap = 2.0 * self.radius - r.length();
-                    force += self.force(r.normalize(), overlap, velocity[j] - v, c.damping) + c.attraction * r;
+                    force +=
+                        self.force(r.normalize(), overlap, velocity[j] - v, c.damping) + c.attraction * r;
                 }
             }
             if self.walls == Wall::Contact {

@@ -45,11 +45,7 @@ pub fn load(path: &Path) -> Result<Mesh, String> {
             triangles.push([polygon[0], pair[0], pair[1]].map(|index| index as u32));
         }
     }
-    let mesh = Mesh {
-        vertices,
-        triangles,
-    }
-    .welded();
+    let mesh = Mesh { vertices, triangles }.welded();
     if mesh.triangles.is_empty() {
         return Err(format!(
             "{name}: there are no faces with an area in it; export the mesh with its triangles, not only its points"

@@ -53,11 +53,7 @@ pub fn ball(center: DVec3, radius: f64, levels: u32) -> Mesh {
     let triangles = (0..faces.len() as u32)
         .map(|face| [3 * face, 3 * face + 1, 3 * face + 2])
         .collect();
-    Mesh {
-        vertices,
-        triangles,
-    }
-    .welded()
+    Mesh { vertices, triangles }.welded()
 }
 
 /// Around the y axis: `major` from the axis to the middle of the tube, `minor` the tube's radius.
@@ -71,12 +67,8 @@ pub fn torus(major: f64, minor: f64, around: u32, across: u32) -> Mesh {
             mesh.vertices
                 .push(DVec3::new(cos * distance, minor * up, sin * distance));
             let at = |i: u32, j: u32| (i % around) * across + j % across;
-            mesh.triangles.extend(split(&[
-                at(i, j),
-                at(i, j + 1),
-                at(i + 1, j + 1),
-                at(i + 1, j),
-            ]));
+            mesh.triangles
+                .extend(split(&[at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)]));
         }
     }
     mesh

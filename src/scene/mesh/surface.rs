@@ -72,8 +72,8 @@ impl Surface {
                     }
                 }
                 Link::SecondChild(second) => {
-                    let mut children = [index + 1, second]
-                        .map(|child| (child, self.nodes[child].distance_squared(point)));
+                    let mut children =
+                        [index + 1, second].map(|child| (child, self.nodes[child].distance_squared(point)));
                     // The nearer one last, so that it is popped first.
                     if children[0].1 < children[1].1 {
                         children.swap(0, 1);

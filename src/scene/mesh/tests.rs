@@ -16,9 +16,7 @@ fn tetrahedron_files(folder: &Path) -> Vec<PathBuf> {
             let vertices = face.map(|i| format!("vertex {}\n", corners[i])).concat();
             format!("facet normal 0 0 0\nouter loop\n{vertices}endloop\nendfacet\n")
         };
-        let facets = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
-            .map(facet)
-            .concat();
+        let facets = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].map(facet).concat();
         format!("solid\n{facets}endsolid\n").into_bytes()
     };
     let mut binary_stl = Vec::new();
@@ -46,8 +44,7 @@ fn tetrahedron_files(folder: &Path) -> Vec<PathBuf> {
              element face 4\nproperty list uchar int vertex_indices\nend_header\n"
         )
     };
-    let ascii_ply =
-        ply_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+    let ascii_ply = ply_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
     let mut binary_ply = ply_header("binary_little_endian").into_bytes();
     for value in [0f32, 0., 0., 1., 0., 0., 0., 1., 0., 0., 0., 1.] {
         binary_ply.extend(value.to_le_bytes());
@@ -122,9 +119,10 @@ fn polygons_are_fanned() {
     assert!((from_obj.signed_volume() - 1.0).abs() < 1e-12);
 
     let path = folder.path().join("cube.ply");
-    let mut text = "ply\nformat ascii 1.0\nelement vertex 8\nproperty double x\nproperty double y\nproperty double z\n\
+    let mut text =
+        "ply\nformat ascii 1.0\nelement vertex 8\nproperty double x\nproperty double y\nproperty double z\n\
                     property uchar red\nelement face 6\nproperty list uchar uint vertex_index\nend_header\n"
-        .to_owned();
+            .to_owned();
     for v in cube(DVec3::ZERO, DVec3::ONE).vertices {
         text += &format!("{} {} {} 255\n", v.x, v.y, v.z);
     }
@@ -141,11 +139,7 @@ fn broken_files_are_named_with_their_mend() {
     let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
                element face 1\nproperty list uchar int vertex_indices\nend_header\n";
     let files = [
-        (
-            "cloud.obj",
-            "v 0 0 0\nv 1 0 0\nv 0 1 0\n".into(),
-            "no faces",
-        ),
+        ("cloud.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n".into(), "no faces"),
         (
             "flat.obj",
             "v 0 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n".into(),
@@ -224,11 +218,7 @@ fn faces_are_turned_outward() {
     assert!((inward.oriented().signed_volume() - volume).abs() < 1e-12);
 
     let mut mixed = outward.clone();
-    mixed
-        .triangles
-        .iter_mut()
-        .step_by(3)
-        .for_each(|t| t.swap(0, 1));
+    mixed.triangles.iter_mut().step_by(3).for_each(|t| t.swap(0, 1));
     assert!(mixed.open_edges() > 0);
     let mixed = mixed.oriented();
     assert_eq!(mixed.open_edges(), 0);

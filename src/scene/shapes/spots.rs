@@ -43,10 +43,7 @@ impl Spots {
 
     /// Takes the point if there is room for it.
     pub fn put(&mut self, point: DVec3) -> bool {
-        let [x, y, z] = (point / self.distance)
-            .floor()
-            .to_array()
-            .map(|cell| cell as i64);
+        let [x, y, z] = (point / self.distance).floor().to_array().map(|cell| cell as i64);
         for k in [z, z - 1, z + 1] {
             for j in [y, y - 1, y + 1] {
                 for i in [x, x - 1, x + 1] {

@@ -36,10 +36,7 @@ fn regions() -> Vec<(Region, f64, Distance)> {
             Box::new(move |p| ((p - center + 0.05).abs() - 0.75).max_element()),
         ),
         (
-            Region::Sphere {
-                center,
-                radius: 1.0,
-            },
+            Region::Sphere { center, radius: 1.0 },
             4.0 / 3.0 * PI,
             Box::new(move |p| p.distance(center) - 1.0),
         ),
@@ -96,13 +93,7 @@ fn a_box_holds_as_many_grains_as_its_sides_say() {
     }
     // A hair too small is too small.
     assert_eq!(
-        plain(
-            &boxed(DVec3::ZERO, DVec3::splat(1.0 - 1e-6)),
-            Three,
-            0.05,
-            0.1
-        )
-        .len(),
+        plain(&boxed(DVec3::ZERO, DVec3::splat(1.0 - 1e-6)), Three, 0.05, 0.1).len(),
         729
     );
     assert!(plain(&boxed(DVec3::ZERO, DVec3::splat(0.09)), Three, 0.05, 0.1).is_empty());
@@ -244,14 +235,7 @@ fn random_gives_what_fits() {
     assert!(random(&too_large, Three, 0.2, 0.5, &mut seeded(1)).is_empty());
     assert!(plain(&too_large, Three, 0.2, 0.4).is_empty());
     assert_eq!(
-        random(
-            &boxed(DVec3::ZERO, DVec3::ONE),
-            Three,
-            0.5,
-            0.53,
-            &mut seeded(1)
-        )
-        .len(),
+        random(&boxed(DVec3::ZERO, DVec3::ONE), Three, 0.5, 0.53, &mut seeded(1)).len(),
         1
     );
 }
@@ -282,10 +266,7 @@ fn without_overlaps_agrees_with_brute_force() {
 fn grains_that_touch_do_not_overlap() {
     let points = plain(&boxed(DVec3::splat(-1.0), DVec3::ONE), Three, 0.05, 0.1);
     assert_eq!(without_overlaps(&points, 0.1).len(), 8000);
-    assert_eq!(
-        without_overlaps(&points, 0.1 * (1.0 + 1e-5)).len(),
-        8000 / 2
-    );
+    assert_eq!(without_overlaps(&points, 0.1 * (1.0 + 1e-5)).len(), 8000 / 2);
 }
 
 /// The bunny with each facet split in sixteen: about as many as the Stanford scan has.
@@ -312,10 +293,7 @@ fn a_bunny_of_59_thousand_triangles_is_filled_in_seconds() {
     let points = plain(&Region::Mesh(bunny), Three, 0.1 * spacing, spacing);
     let seconds = start.elapsed().as_secs_f64();
     let filled = points.len() as f64 * spacing.powi(3);
-    assert!(
-        (0.93..1.0).contains(&(filled / volume)),
-        "{filled} of {volume}"
-    );
+    assert!((0.93..1.0).contains(&(filled / volume)), "{filled} of {volume}");
     assert!(points.len() > 90_000, "{}", points.len());
     println!("{} points in {seconds:.2} s", points.len());
     assert!(seconds < 10.0, "{seconds} s");
