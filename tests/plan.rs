@@ -207,9 +207,7 @@ fn what_does_not_fit_is_refused_with_the_number_that_would() {
         binding: 1 << 19,
         ..Limits::PROMISED
     };
-    let error = Plan::new(&scene, &small, &Wanted::default())
-        .err()
-        .expect("too large");
+    let error = Plan::new(&scene, &small, &Wanted::default()).expect_err("too large");
     let Error::Limit { what, mend } = error else {
         panic!("{error}")
     };

@@ -141,9 +141,8 @@ impl Composed {
                     None => return Err(fail(format!("{place}: #else without #if"))),
                 },
                 (Some("#end"), None) => {
-                    if open.pop().is_none() {
-                        return Err(fail(format!("{place}: #end without #if")));
-                    }
+                    open.pop()
+                        .ok_or_else(|| fail(format!("{place}: #end without #if")))?;
                 }
                 (Some("#import"), Some(what)) => {
                     if !keep {
