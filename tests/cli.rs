@@ -445,3 +445,36 @@ fn two_runs_write_the_same_bytes() {
         assert!(bytes == &two[name], "{name} differs");
     }
 }
+
+#[test]
+fn every_scene_that_ships_runs_without_a_warning() {
+    let temporary = tempfile::tempdir().expect("a folder");
+    let listed = output(&["scenes"]);
+    let scenes =
+        std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/scenes")).expect("scenes");
+    for scene in scenes {
+        let path = scene.expect("an entry").path();
+        let name = path.file_stem().expect("a name").to_str().expect("text");
+        assert!(listed.contains(name), "{name} is not listed:\n{listed}");
+        let out = temporary.path().join(name).display().to_string();
+        let arguments = [
+            "run",
+            name,
+            "--out",
+            &out,
+            "--frames",
+            "2",
+            "--size",
+            "160x90",
+            "--progress",
+            "plain",
+        ];
+        let run = sliceflow(&arguments).assert().success();
+        let told = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
+        let warnings: Vec<_> = told
+            .lines()
+            .filter(|l| l.starts_with("warning") && !l.contains("software"))
+            .collect();
+        assert!(warnings.is_empty(), "{name}: {warnings:?}");
+    }
+}

@@ -199,9 +199,10 @@ fn a_pool_reports_what_it_has_no_room_for() {
             },
         );
         simulation.next_frame().unwrap();
-        let statistics = simulation.finish_frame().unwrap().unwrap().statistics.unwrap();
+        let frame = simulation.finish_frame().unwrap().unwrap();
+        assert_eq!(frame.overflow, 7);
+        let statistics = frame.statistics.unwrap();
         assert_eq!(statistics.overflow, 7);
-        assert_eq!(statistics.overflow_since_last_frame, 7);
         assert_eq!(statistics.voxels_with_more, 1);
         assert_eq!(statistics.voxels_with, [1, 0, 0, 0]);
         assert_eq!(statistics.voxels_occupied, 2);

@@ -610,3 +610,34 @@ fn set_explains_what_it_cannot_do() {
     let unknown = ["grains.radus=1", "time.fps=fast", "grains.spring=NaN"];
     insta::assert_snapshot!("set_unknown_keys", message(&block(), &unknown));
 }
+
+#[test]
+fn bodies_come_from_particle_files_and_meshes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(
+        folder.path().join("points.csv"),
+        "x,y,z,vx,vy,vz,id\n0.5,0.5,0.5,1,2,3,1\n0.2,0.3,0.4,0,0,0,0\n",
+    )
+    .expect("a file");
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/meshes/bunny.obj");
+    let text = format!(
+        r#"{{
+          "domain": {{ "min": [0, 0, 0], "max": [2, 1, 1] }},
+          "grains": {{ "radius": 0.02, "spring": 1000, "restitution": 0.5 }},
+          "bodies": [
+            {{ "shape": {{ "kind": "particles", "file": "points.csv" }}, "velocity": [0, 1, 0] }},
+            {{ "shape": {{ "kind": "mesh", "file": "{}", "placement": {{ "scale": 0.6, "translate": [1.4, 0.1, 0.5] }} }} }}
+          ]
+        }}"#,
+        mesh.display()
+    );
+    let scene = load::parse(&text, "files.json", folder.path(), &[]).unwrap_or_else(|e| panic!("{e}"));
+    let position = |i: usize| scene.particles.position[i].as_dvec3() + scene.origin;
+    // In order of the file's ids; velocities of body and file add up.
+    assert!(position(0).distance(DVec3::new(0.2, 0.3, 0.4)) < 1e-6);
+    assert!(position(1).distance(DVec3::new(0.5, 0.5, 0.5)) < 1e-6);
+    assert_eq!(scene.particles.velocity[1], Vec3::new(1.0, 3.0, 3.0));
+    let filled = scene.particles.len() - 2;
+    assert!((400..600).contains(&filled), "{filled}");
+    assert!((2..scene.particles.len()).all(|i| position(i).x > 1.0));
+}

@@ -15,7 +15,7 @@ pub struct RunArgs {
     /// What pictures show: the scene, the index pool as a heatmap, or both
     #[arg(long, value_parser = ["scene", "pool", "both"])]
     view: Option<String>,
-    /// Neighbor search, ADDRESSING-STORAGE: uniform-counting, uniform-pool, sliced-pool
+    /// Neighbor search, ADDRESSING-STORAGE: uniform or sliced, counting or pool: sliced-counting
     #[arg(long, value_name = "NAME")]
     grid: Option<String>,
     /// Writes particle files in this format
@@ -27,7 +27,7 @@ pub struct RunArgs {
     /// Draws nothing
     #[arg(long)]
     no_pictures: bool,
-    /// Measures nothing, which also silences warnings about what is measured
+    /// Measures nothing; the warning about overlapping grains needs it
     #[arg(long)]
     no_statistics: bool,
 }

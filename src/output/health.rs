@@ -1,7 +1,7 @@
 //! Signs in the statistics that a run's numbers should not be trusted.
 
 use super::text::count;
-use crate::simulation::frame::{Frame, Statistics};
+use crate::simulation::frame::Frame;
 
 /// Deepest overlap, as a share of the radius, that a soft-sphere contact should have.
 const LARGEST_OVERLAP: f64 = 0.2;
@@ -15,26 +15,24 @@ pub struct Health {
 
 impl Health {
     /// Warnings that this frame is the first to deserve.
-    pub fn check(&mut self, frame: &Frame, statistics: &Statistics) -> Vec<String> {
+    pub fn check(&mut self, frame: &Frame) -> Vec<String> {
         let mut warnings = Vec::new();
-        let overflow = statistics
-            .overflow_since_last_frame
-            .max(u64::from(statistics.overflow));
-        if overflow > 0 && self.overflow == 0 {
+        if frame.overflow > 0 && self.overflow == 0 {
             warnings.push(format!(
                 "frame {}: {} times a grain found its voxel full, so contacts are missed; give voxels more room with \
-                 --set neighbors.slots=8, or use --grid uniform-counting",
+                 --set neighbors.slots=8, or use --grid sliced-counting",
                 frame.index,
-                count(overflow)
+                count(frame.overflow)
             ));
         }
-        self.overflow += overflow;
-        if statistics.max_overlap > LARGEST_OVERLAP && !self.overlap_told {
+        self.overflow += frame.overflow;
+        let overlap = frame.statistics.map_or(0.0, |statistics| statistics.max_overlap);
+        if overlap > LARGEST_OVERLAP && !self.overlap_told {
             self.overlap_told = true;
             warnings.push(format!(
                 "frame {}: grains overlap by {:.0} % of their radius; raise grains.spring for stiffer grains",
                 frame.index,
-                100.0 * statistics.max_overlap
+                100.0 * overlap
             ));
         }
         warnings
@@ -54,6 +52,7 @@ impl Health {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simulation::frame::Statistics;
 
     #[test]
     fn each_sign_is_told_once() {
@@ -63,29 +62,30 @@ mod tests {
             steps: 0,
             step_s: 1e-3,
             particles: 1,
+            overflow: 0,
             pixels: None,
             statistics: None,
             columns: Vec::new(),
             pass_ms: Vec::new(),
         };
-        let well = Statistics {
-            max_overlap: 0.05,
-            ..Default::default()
+        let with = |max_overlap, overflow| Frame {
+            overflow,
+            statistics: Some(Statistics {
+                max_overlap,
+                ..Default::default()
+            }),
+            ..frame.clone()
         };
-        let ill = Statistics {
-            max_overlap: 0.3,
-            overflow_since_last_frame: 40,
-            ..Default::default()
-        };
+        let (well, ill) = (with(0.05, 0), with(0.3, 40));
         let mut health = Health::default();
-        assert!(health.check(&frame, &well).is_empty());
+        assert!(health.check(&well).is_empty());
         assert_eq!(health.summary(), None);
-        let warnings = health.check(&frame, &ill);
+        let warnings = health.check(&ill);
         assert!(
             warnings[0].contains("40 times") && warnings[1].contains("30 %"),
             "{warnings:?}"
         );
-        assert!(health.check(&frame, &ill).is_empty());
+        assert!(health.check(&ill).is_empty());
         assert!(health.summary().unwrap().contains("80 times"));
     }
 }

@@ -208,10 +208,8 @@ impl Run {
                 None => self.pass_ms.push((label.clone(), *ms)),
             }
         }
-        if let Some(statistics) = &frame.statistics {
-            for warning in self.health.check(&frame, statistics) {
-                self.progress.warn(&warning);
-            }
+        for warning in self.health.check(&frame) {
+            self.progress.warn(&warning);
         }
         self.progress.frame(&frame, &self.tally);
         Ok(())

@@ -49,6 +49,7 @@ struct Line {
     steps: u64,
     step_s: f64,
     particles: u32,
+    overflow_since_last_frame: u64,
     #[serde(flatten)]
     measured: Option<Measured>,
     /// Sum over the frame's steps, by pass; only with `--timings`.
@@ -72,7 +73,6 @@ struct Measured {
     voxels_with_4: u32,
     voxels_with_more: u32,
     overflow: u32,
-    overflow_since_last_frame: u64,
 }
 
 impl From<&Statistics> for Measured {
@@ -92,7 +92,6 @@ impl From<&Statistics> for Measured {
             voxels_with_4,
             voxels_with_more: from.voxels_with_more,
             overflow: from.overflow,
-            overflow_since_last_frame: from.overflow_since_last_frame,
         }
     }
 }
@@ -104,6 +103,7 @@ fn line(frame: &Frame) -> String {
         steps: frame.steps,
         step_s: frame.step_s,
         particles: frame.particles,
+        overflow_since_last_frame: frame.overflow,
         measured: frame.statistics.as_ref().map(Measured::from),
         pass_ms: by_pass(&frame.pass_ms),
     };
@@ -132,6 +132,7 @@ mod tests {
             steps: 300,
             step_s: 1e-3,
             particles: 10,
+            overflow: 0,
             pixels: None,
             statistics: None,
             columns: Vec::new(),
@@ -139,7 +140,7 @@ mod tests {
         };
         assert_eq!(
             line(&frame),
-            r#"{"frame":3,"time_s":0.1,"steps":300,"step_s":0.001,"particles":10}"#
+            r#"{"frame":3,"time_s":0.1,"steps":300,"step_s":0.001,"particles":10,"overflow_since_last_frame":0}"#
         );
 
         frame.statistics = Some(Statistics {

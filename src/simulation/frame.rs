@@ -20,6 +20,8 @@ pub struct Frame {
     /// Time step, seconds.
     pub step_s: f64,
     pub particles: u32,
+    /// How often a particle found its voxel of a pool full, summed over all searches since the last frame.
+    pub overflow: u64,
     /// RGBA, 8 bits each, sRGB, rows from the top without padding.
     pub pixels: Option<Vec<u8>>,
     pub statistics: Option<Statistics>,
@@ -49,8 +51,6 @@ pub struct Statistics {
     pub voxels_with_more: u32,
     /// Particles that found no slot in the search for this frame.
     pub overflow: u32,
-    /// The same, summed over all searches since the last frame.
-    pub overflow_since_last_frame: u64,
 }
 
 impl Statistics {
@@ -67,7 +67,6 @@ impl Statistics {
             voxels_with: [one, two, three, four],
             voxels_with_more: more,
             overflow: overflow.now,
-            overflow_since_last_frame: u64::from(overflow.since_last_frame),
         }
     }
 }

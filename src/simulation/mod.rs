@@ -454,6 +454,7 @@ impl Simulation {
             steps: u64::from(clock.step),
             step_s: self.scene.time.step,
             particles: pending.particles,
+            overflow: u64::from(overflow.since_last_frame),
             pixels: by_name.get("frame_pixels").map(|pixels| pixels.to_vec()),
             statistics,
             columns: frame::columns(&self.scene, &self.plan, &by_name),

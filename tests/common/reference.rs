@@ -102,33 +102,33 @@ impl Reference {
     }
 
     pub fn advance(&mut self, steps: u32) {
-        let dt = self.step;
         for _ in 0..steps {
             match self.integrator {
                 Integrator::SymplecticEuler => {
-                    let a = self.accelerations(&self.velocity);
-                    for i in 0..self.position.len() {
-                        let mut v = self.velocity[i] + a[i] * dt;
-                        let mut x = self.position[i] + v * dt;
-                        self.clamp(&mut x, &mut v);
-                        (self.position[i], self.velocity[i]) = (x, v);
-                    }
+                    let acceleration = self.accelerations(&self.velocity);
+                    self.drift(&acceleration, 1.0);
                 }
                 Integrator::VelocityVerlet => {
-                    for i in 0..self.position.len() {
-                        let a = self.acceleration[i];
-                        let mut x = self.position[i] + self.velocity[i] * dt + 0.5 * a * dt * dt;
-                        let mut v = self.velocity[i] + a * dt;
-                        self.clamp(&mut x, &mut v);
-                        (self.position[i], self.velocity[i]) = (x, v);
+                    let before = self.acceleration.clone();
+                    self.drift(&before, 0.5);
+                    self.acceleration = self.accelerations(&self.velocity);
+                    for (v, (new, old)) in self.velocity.iter_mut().zip(self.acceleration.iter().zip(before))
+                    {
+                        *v += 0.5 * self.step * (*new - old);
                     }
-                    let a = self.accelerations(&self.velocity);
-                    for i in 0..self.position.len() {
-                        self.velocity[i] += 0.5 * dt * (a[i] - self.acceleration[i]);
-                    }
-                    self.acceleration = a;
                 }
             }
+        }
+    }
+
+    /// v' = v + a dt, x' = x + (v + `share` a dt) dt, walls.
+    fn drift(&mut self, acceleration: &[DVec3], share: f64) {
+        let dt = self.step;
+        for (i, a) in acceleration.iter().enumerate() {
+            let mut x = self.position[i] + self.velocity[i] * dt + share * *a * dt * dt;
+            let mut v = self.velocity[i] + *a * dt;
+            self.clamp(&mut x, &mut v);
+            (self.position[i], self.velocity[i]) = (x, v);
         }
     }
 }
