@@ -8,7 +8,8 @@ use glam::{DVec3, Vec3};
 use reference::Reference;
 use sliceflow::error::Error;
 use sliceflow::plan::Wanted;
-use sliceflow::scene::{Particles, Scene};
+use sliceflow::scene::signed_distance::SignedDistance;
+use sliceflow::scene::{ColliderShape, Particles, Scene};
 use sliceflow::simulation::{Frame, Simulation, Values};
 
 fn wanted() -> Wanted {
@@ -318,18 +319,29 @@ fn grains_rest_on_every_kind_of_obstacle() {
         println!("{dimensions}D: {statistics:?}");
         assert!(statistics.max_overlap < 0.1, "{statistics:?}");
         assert!(statistics.contacts > frame.particles.into());
-        // Nobody inside the box obstacle, deeper than a radius.
-        let inset = 0.0;
+        // No center inside an obstacle.
+        let surfaces: Vec<_> = scene
+            .colliders
+            .iter()
+            .filter_map(|collider| match &collider.shape {
+                ColliderShape::Mesh(mesh) => Some(SignedDistance::new(mesh, 0.5 * scene.grains.radius, 0.1)),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(surfaces.len(), dimensions - 2);
         for p in vectors(&frame, "position") {
-            let inside = p.x > 0.3 + inset
-                && p.x < 0.4 - inset
-                && p.y < -inset
-                && (dimensions == 2 || p.z.abs() < 0.1 - inset);
-            assert!(!inside, "a grain inside the box at {p}");
+            let in_box = p.x > 0.3 && p.x < 0.4 && p.y < 0.0 && (dimensions == 2 || p.z.abs() < 0.1);
+            assert!(!in_box, "a grain inside the box at {p}");
             assert!(
-                (p - DVec3::new(0.2, -0.1, 0.0)).length() > 0.1,
+                p.distance(DVec3::new(0.2, -0.1, 0.0)) > 0.1,
                 "a grain inside the sphere at {p}"
             );
+            for surface in &surfaces {
+                assert!(
+                    surface.sample(p - scene.origin) > 0.0,
+                    "a grain inside the mesh at {p}"
+                );
+            }
         }
     }
 }

@@ -5,8 +5,10 @@ mod common;
 use glam::Vec3;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use sliceflow::plan::Wanted;
+use sliceflow::gpu::{AdapterChoice, Gpu};
+use sliceflow::plan::{Plan, Wanted};
 use sliceflow::scene::{Particles, Scene};
+use sliceflow::simulation::Simulation;
 
 const GRIDS: [(&str, &str); 4] = [
     ("uniform", "counting"),
@@ -246,4 +248,21 @@ fn sliced_allocates_the_bounding_box_of_each_slice() {
     let statistics = simulation.finish_frame().unwrap().unwrap().statistics.unwrap();
     assert_eq!(statistics.voxels_allocated, expected as u32);
     assert!(statistics.voxels_allocated < grid.capacity);
+}
+
+#[test]
+fn folded_dispatches_do_the_same_work() {
+    // Four groups of a dispatch in one dimension, instead of 65,535.
+    let points = random(3, 3000, 7);
+    for grid in GRIDS {
+        let scene = scene_of(3, grid, "y", 64, &points);
+        let mut gpu = Gpu::open(&AdapterChoice::Best, true).unwrap();
+        gpu.limits.groups = 4;
+        let plan = Plan::new(&scene, &gpu.limits, &Wanted::default()).unwrap();
+        let mut folded = Simulation::new(gpu, &scene, &plan).unwrap();
+        folded.next_frame().unwrap();
+        let (start, ids) = brute_force(&points, (2.0 * scene.grains.radius) as f32);
+        let found = folded.neighbor_lists().unwrap();
+        assert!(found.start == start && found.ids == ids, "{grid:?}");
+    }
 }

@@ -1,7 +1,4 @@
-// Threads and the items they work on.
-
-// Threads of a workgroup, in passes over particles or voxels.
-const GROUP_SIZE: u32 = 64u;
+// Threads and the items they work on. GROUP_SIZE threads make a workgroup (gpu/compose.rs).
 
 struct Thread {
     @builtin(workgroup_id) group: vec3u,

@@ -1,7 +1,5 @@
 // Prefix sum over one workgroup of SCAN_THREADS threads.
 
-const SCAN_THREADS: u32 = 256u;
-
 var<workgroup> scan_shared: array<u32, SCAN_THREADS>;
 
 struct Scanned {

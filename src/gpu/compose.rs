@@ -18,14 +18,35 @@ use crate::error::{Error, Result};
 
 static SHADERS: Dir = include_dir!("$CARGO_MANIFEST_DIR/shaders");
 
+/// Threads of a workgroup in passes over particles and voxels.
+pub const GROUP_SIZE: u32 = 64;
+/// Threads of a workgroup that computes prefix sums, and items of each.
+pub const SCAN_THREADS: u32 = 256;
+pub const SCAN_ITEMS: u32 = 8;
+
 /// What a plan chose: which lines and files a shader is made of.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Variant {
     pub flags: BTreeSet<String>,
     /// WGSL constants of type u32.
     pub constants: BTreeMap<&'static str, u32>,
     /// Role → file without its ending: `addressing` → `cells/sliced`.
     pub roles: BTreeMap<&'static str, String>,
+}
+
+impl Default for Variant {
+    fn default() -> Self {
+        let sizes = [
+            ("GROUP_SIZE", GROUP_SIZE),
+            ("SCAN_THREADS", SCAN_THREADS),
+            ("SCAN_ITEMS", SCAN_ITEMS),
+        ];
+        Self {
+            flags: BTreeSet::new(),
+            constants: sizes.into(),
+            roles: BTreeMap::new(),
+        }
+    }
 }
 
 impl Variant {

@@ -1,6 +1,7 @@
 //! How a voxel keeps its particles.
 
 use super::Search;
+use crate::gpu::compose::{SCAN_ITEMS, SCAN_THREADS};
 use crate::gpu::{BufferPlan, Items, PassPlan};
 use crate::scene::model::Storage;
 
@@ -38,16 +39,11 @@ pub fn row(kind: Storage) -> &'static StorageRow {
     found.expect("every storage has a row")
 }
 
-/// Items that one workgroup of `storage/counting/scan.wgsl` adds up.
-const SCAN_BLOCK: u64 = 2048;
-/// Threads of one of its workgroups.
-const SCAN_THREADS: u64 = 256;
-
 fn counting(search: &mut Search, capacity: u32, _slots: u32) {
     let particles = u64::from(capacity);
     let items = u64::from(search.grid.capacity) + 1;
-    let blocks = items.div_ceil(SCAN_BLOCK);
-    let threads = (blocks * SCAN_THREADS) as u32;
+    let blocks = items.div_ceil(u64::from(SCAN_THREADS * SCAN_ITEMS));
+    let threads = blocks as u32 * SCAN_THREADS;
     search.buffers.extend([
         BufferPlan::storage("voxel_count", items, 4, "particles that fell into each voxel"),
         BufferPlan::storage("voxel_start", items, 4, "first particle of each voxel"),

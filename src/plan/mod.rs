@@ -5,6 +5,7 @@
 use serde::Serialize;
 
 use crate::error::{Error, Result};
+use crate::gpu::compose::GROUP_SIZE;
 use crate::gpu::device::Limits;
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::neighbors::{self, Grid};
@@ -319,9 +320,7 @@ fn state_buffers(scene: &Scene) -> Vec<BufferPlan> {
 
 /// Buffers and passes of the figures over all grains and voxels.
 fn statistics(scene: &Scene, grid: &Grid) -> (Vec<BufferPlan>, Vec<PassPlan>) {
-    /// Threads of a workgroup of `measure_grains` (GROUP_SIZE of common/thread.wgsl).
-    const GROUP: u32 = 64;
-    let groups = u64::from(scene.capacity.div_ceil(GROUP));
+    let groups = u64::from(scene.capacity.div_ceil(GROUP_SIZE));
     let sums = Sums::LAYOUT.size as u64;
     let buffers = vec![
         BufferPlan::storage(

@@ -157,11 +157,9 @@ fn render(file: &SceneFile, frame: &Frame, report: &mut Report) -> Render {
         );
     }
     if render.show.slices && file.neighbors.addressing != Addressing::Sliced {
-        report.problem(
-            "render.show.slices",
-            "there are no slices to show",
-            "set neighbors.addressing to \"sliced\"",
-        );
+        report
+            .notes
+            .push("render.show.slices: this grid has no slices, so none are drawn".into());
     }
     if render.light.is_some_and(|light| light == [0.0; 3]) {
         report.problem(

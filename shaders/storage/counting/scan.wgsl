@@ -4,8 +4,7 @@
 #import common/workgroup_scan
 #import <addressing>
 
-const ITEMS: u32 = 8u; // of one thread
-const SCAN_BLOCK: u32 = SCAN_THREADS * ITEMS;
+const SCAN_BLOCK: u32 = SCAN_THREADS * SCAN_ITEMS;
 
 var<storage, read_write> voxel_count: array<u32>;
 var<storage, read_write> voxel_start: array<u32>;
@@ -23,9 +22,9 @@ fn sum_blocks(thread: Thread) {
     if block * SCAN_BLOCK >= items {
         return;
     }
-    let begin = block * SCAN_BLOCK + thread.local_index * ITEMS;
+    let begin = block * SCAN_BLOCK + thread.local_index * SCAN_ITEMS;
     var sum = 0u;
-    for (var item = begin; item < min(begin + ITEMS, items); item++) {
+    for (var item = begin; item < min(begin + SCAN_ITEMS, items); item++) {
         sum += voxel_count[item];
     }
     let scanned = workgroup_scan(thread.local_index, sum);
@@ -61,8 +60,8 @@ fn start_voxels(thread: Thread) {
     if block * SCAN_BLOCK >= items {
         return;
     }
-    let begin = block * SCAN_BLOCK + thread.local_index * ITEMS;
-    let end = min(begin + ITEMS, items);
+    let begin = block * SCAN_BLOCK + thread.local_index * SCAN_ITEMS;
+    let end = min(begin + SCAN_ITEMS, items);
     var sum = 0u;
     for (var item = begin; item < end; item++) {
         sum += voxel_count[item];
