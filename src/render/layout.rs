@@ -87,6 +87,8 @@ fn centered(room: u32, what: u32) -> u32 {
 fn pool_alone(panel: Rectangle, pixels: &impl Fn(f32) -> u32) -> PoolPlace {
     let margin = pixels(24.0);
     let legend = POOL_LEGEND.map(pixels);
+    // The caption's line stays free.
+    let height = panel.height.saturating_sub(margin);
     let beside = panel.width >= panel.height;
     let (across, down) = if beside {
         (3 * margin + legend[0], 2 * margin)
@@ -96,11 +98,11 @@ fn pool_alone(panel: Rectangle, pixels: &impl Fn(f32) -> u32) -> PoolPlace {
     let side = panel
         .width
         .saturating_sub(across)
-        .min(panel.height.saturating_sub(down))
+        .min(height.saturating_sub(down))
         .max(1);
     if beside {
         let x = centered(panel.width, side + margin + legend[0]);
-        let y = centered(panel.height, side);
+        let y = centered(height, side);
         PoolPlace {
             panel,
             square: [x, y, side],
@@ -108,7 +110,7 @@ fn pool_alone(panel: Rectangle, pixels: &impl Fn(f32) -> u32) -> PoolPlace {
         }
     } else {
         let x = centered(panel.width, side);
-        let y = centered(panel.height, side + margin + legend[1]);
+        let y = centered(height, side + margin + legend[1]);
         PoolPlace {
             panel,
             square: [x, y, side],
