@@ -2,10 +2,9 @@
 #import common/thread
 #import common/parameters
 #import common/reach
+#import physics/present
 #import <storage>
 
-var<storage, read> position: array<Packed>;
-var<storage, read> id: array<u32>;
 var<storage, read> search_radius: f32;
 // By id: number of neighbors; then where the list begins.
 var<storage, read_write> neighbor_count: array<u32>;

@@ -2,6 +2,7 @@
 #import common/vector
 #import common/parameters
 #import common/reach
+#import physics/present
 #import physics/dem/law
 #import <storage>
 #if contact_walls
@@ -10,9 +11,6 @@
 #if colliders
 #import physics/dem/colliders
 #end
-
-var<storage, read> position: array<Packed>;
-var<storage, read> velocity: array<Packed>;
 
 fn sum_contacts(i: u32) -> ContactSum {
     var sum = ContactSum();

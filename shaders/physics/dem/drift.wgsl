@@ -2,18 +2,13 @@
 #import common/thread
 #import common/parameters
 #import physics/guard
+#import physics/next
 #if clamp_walls
 #import physics/clamp_walls
 #end
 
-var<storage, read> position: array<Packed>;
-var<storage, read> velocity: array<Packed>;
 var<storage, read> acceleration: array<Packed>;
-var<storage, read> id: array<u32>;
-var<storage, read_write> next_position: array<Packed>;
-var<storage, read_write> next_velocity: array<Packed>;
 var<storage, read_write> next_acceleration: array<Packed>;
-var<storage, read_write> next_id: array<u32>;
 
 @compute @workgroup_size(GROUP_SIZE)
 fn drift(thread: Thread) {
@@ -30,8 +25,6 @@ fn drift(thread: Thread) {
     clamp_to_walls(&moved, &v);
 #end
     watch(id[i], clock.step, x, &moved, &v);
-    next_position[i] = pack(moved);
-    next_velocity[i] = pack(v);
+    leave(i, moved, v);
     next_acceleration[i] = acceleration[i];
-    next_id[i] = id[i];
 }

@@ -2,14 +2,10 @@
 #import common/thread
 #import physics/dem/contacts
 #import physics/guard
+#import physics/next
 #if clamp_walls
 #import physics/clamp_walls
 #end
-
-var<storage, read> id: array<u32>;
-var<storage, read_write> next_position: array<Packed>;
-var<storage, read_write> next_velocity: array<Packed>;
-var<storage, read_write> next_id: array<u32>;
 
 @compute @workgroup_size(GROUP_SIZE)
 fn move_grains(thread: Thread) {
@@ -25,7 +21,5 @@ fn move_grains(thread: Thread) {
     clamp_to_walls(&moved, &v);
 #end
     watch(id[i], clock.step, x, &moved, &v);
-    next_position[i] = pack(moved);
-    next_velocity[i] = pack(v);
-    next_id[i] = id[i];
+    leave(i, moved, v);
 }

@@ -2,21 +2,11 @@
 // that two runs sum in the same order whatever order the atomics had.
 #import common/thread
 #import common/parameters
+#import storage/place
 #import <addressing>
 
 var<storage, read_write> voxel_count: array<atomic<u32>>;
 var<storage, read> voxel_start: array<u32>;
-
-var<storage, read> next_position: array<Packed>;
-var<storage, read> next_velocity: array<Packed>;
-var<storage, read> next_id: array<u32>;
-#if accelerations
-var<storage, read> next_acceleration: array<Packed>;
-var<storage, read_write> acceleration: array<Packed>;
-#end
-var<storage, read_write> position: array<Packed>;
-var<storage, read_write> velocity: array<Packed>;
-var<storage, read_write> id: array<u32>;
 
 // Voxel of each particle, and how many of the voxel's particles came before it to the counter.
 var<storage, read_write> particle_voxel: array<u32>;
@@ -57,10 +47,5 @@ fn reorder_particles(thread: Thread) {
     for (var other = begin; other < end; other++) {
         slot += u32(arrived[other] < i);
     }
-    position[slot] = next_position[i];
-    velocity[slot] = next_velocity[i];
-    id[slot] = next_id[i];
-#if accelerations
-    acceleration[slot] = next_acceleration[i];
-#end
+    place(i, slot);
 }

@@ -2,6 +2,7 @@
 // ascending order, whatever order the atomics had: each slot keeps the lower of two indices and hands on the other.
 #import common/thread
 #import common/parameters
+#import storage/place
 #import <addressing>
 
 const NOBODY: u32 = 0xffffffffu;
@@ -14,17 +15,6 @@ struct Overflow {
 var<storage, read_write> voxel_count: array<atomic<u32>>;
 var<storage, read_write> index_pool: array<atomic<u32>>;
 var<storage, read_write> overflow: Overflow;
-
-var<storage, read> next_position: array<Packed>;
-var<storage, read> next_velocity: array<Packed>;
-var<storage, read> next_id: array<u32>;
-#if accelerations
-var<storage, read> next_acceleration: array<Packed>;
-var<storage, read_write> acceleration: array<Packed>;
-#end
-var<storage, read_write> position: array<Packed>;
-var<storage, read_write> velocity: array<Packed>;
-var<storage, read_write> id: array<u32>;
 
 @compute @workgroup_size(GROUP_SIZE)
 fn clear_voxels(thread: Thread) {
@@ -47,12 +37,7 @@ fn insert_particles(thread: Thread) {
     if i >= parameters.particle_count {
         return;
     }
-    position[i] = next_position[i];
-    velocity[i] = next_velocity[i];
-    id[i] = next_id[i];
-#if accelerations
-    acceleration[i] = next_acceleration[i];
-#end
+    place(i, i);
     let voxel = address(voxel_of(unpack(next_position[i])));
     atomicAdd(&voxel_count[voxel], 1u);
     var carried = i;

@@ -1,0 +1,12 @@
+// Where a step leaves particles for the search.
+#import physics/present
+
+var<storage, read_write> next_position: array<Packed>;
+var<storage, read_write> next_velocity: array<Packed>;
+var<storage, read_write> next_id: array<u32>;
+
+fn leave(i: u32, x: Vector, v: Vector) {
+    next_position[i] = pack(x);
+    next_velocity[i] = pack(v);
+    next_id[i] = id[i];
+}

@@ -1,0 +1,22 @@
+// Takes a particle from where a step left it to its slot in the order of the search.
+#import common/vector
+
+var<storage, read> next_position: array<Packed>;
+var<storage, read> next_velocity: array<Packed>;
+var<storage, read> next_id: array<u32>;
+var<storage, read_write> position: array<Packed>;
+var<storage, read_write> velocity: array<Packed>;
+var<storage, read_write> id: array<u32>;
+#if accelerations
+var<storage, read> next_acceleration: array<Packed>;
+var<storage, read_write> acceleration: array<Packed>;
+#end
+
+fn place(i: u32, slot: u32) {
+    position[slot] = next_position[i];
+    velocity[slot] = next_velocity[i];
+    id[slot] = next_id[i];
+#if accelerations
+    acceleration[slot] = next_acceleration[i];
+#end
+}

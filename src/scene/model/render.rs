@@ -1,0 +1,174 @@
+//! How frames look, as scene files say it.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Axis;
+
+/// How frames look.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Render {
+    /// Width and height, pixels.
+    pub size: [u32; 2],
+    pub view: View,
+    pub splat: Splat,
+    /// Drawn radius over the grain's radius.
+    #[schemars(range(min = 0.01, max = 10.0))]
+    pub splat_scale: f64,
+    pub color: Color,
+    pub camera: Camera,
+    pub background: Background,
+    pub show: Show,
+    /// Samples along each side of a pixel.
+    #[schemars(range(min = 1, max = 4))]
+    pub antialias: u32,
+    /// Direction towards the light; chosen to suit the camera when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub light: Option<[f64; 3]>,
+}
+
+impl Default for Render {
+    fn default() -> Self {
+        Self {
+            size: [1280, 720],
+            view: View::default(),
+            splat: Splat::default(),
+            splat_scale: 1.0,
+            color: Color::default(),
+            camera: Camera::default(),
+            background: Background::default(),
+            show: Show::default(),
+            antialias: 2,
+            light: None,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum View {
+    #[default]
+    Scene,
+    /// The index pool as a heatmap (Harada 2007, Figure 7).
+    Pool,
+    /// The scene, and the pool beside it.
+    Both,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Splat {
+    /// Lit spheres with true depth (Green 2012).
+    #[default]
+    Sphere,
+    /// Flat discs (Rojas 2013).
+    Disc,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Color {
+    /// The column that colors the particles: see `sliceflow scenes --columns`.
+    pub by: String,
+    /// A color map by name.
+    pub map: String,
+    /// Values at the two ends of the map; derived from the scene, then fixed, when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<[f64; 2]>,
+    /// Whether a color bar with numbers and unit is drawn.
+    pub legend: bool,
+}
+
+impl Default for Color {
+    fn default() -> Self {
+        Self {
+            by: "speed".into(),
+            map: "viridis".into(),
+            range: None,
+            legend: true,
+        }
+    }
+}
+
+/// Where the eye is; it frames the domain when `eye` and `target` are left out.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Camera {
+    pub projection: Projection,
+    /// Looks down this axis (an orthographic view as in Harada 2007, Figure 2).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axis: Option<Axis>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub eye: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<[f64; 3]>,
+    /// Vertical angle of view, degrees.
+    #[schemars(range(min = 1.0, max = 150.0))]
+    pub field_of_view: f64,
+    /// Height of an orthographic view, metres; frames the domain when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-9, max = 1e9))]
+    pub height: Option<f64>,
+    /// Turn about the vertical axis through the target, degrees per simulated second.
+    pub orbit: f64,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self {
+            projection: Projection::default(),
+            axis: None,
+            eye: None,
+            target: None,
+            field_of_view: 35.0,
+            height: None,
+            orbit: 0.0,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Projection {
+    #[default]
+    Perspective,
+    Orthographic,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Background {
+    /// A soft grey gradient.
+    #[default]
+    Studio,
+    Dark,
+    White,
+    Black,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Show {
+    /// The domain box, in red lines (Harada 2007, Figure 2).
+    pub domain: bool,
+    /// A floor that takes shadows, at the domain's lower side (3D).
+    pub floor: bool,
+    /// The slices that `sliced` allocated, as translucent green boxes (Harada 2007, Figure 2).
+    pub slices: bool,
+    pub colliders: bool,
+    /// Name of the scene, time and particle count in a corner.
+    pub caption: bool,
+}
+
+impl Default for Show {
+    fn default() -> Self {
+        Self {
+            domain: true,
+            floor: true,
+            slices: false,
+            colliders: true,
+            caption: true,
+        }
+    }
+}
