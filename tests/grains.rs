@@ -7,6 +7,7 @@ mod reference;
 use glam::{DVec3, Vec3};
 use reference::Reference;
 use sliceflow::error::Error;
+use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
 use sliceflow::plan::Wanted;
 use sliceflow::scene::signed_distance::SignedDistance;
 use sliceflow::scene::{ColliderShape, Particles, Scene};
@@ -243,8 +244,8 @@ fn coincident_grains_part_and_stay_finite() {
 
 #[test]
 fn two_runs_give_the_same_bits_through_every_grid() {
-    for addressing in ["uniform", "sliced"] {
-        for storage in ["counting", "pool"] {
+    for addressing in ADDRESSINGS.iter().map(|row| row.name) {
+        for storage in STORAGES.iter().map(|row| row.name) {
             let grid = [
                 format!("neighbors.addressing={addressing}"),
                 format!("neighbors.storage={storage}"),

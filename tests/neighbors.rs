@@ -6,16 +6,19 @@ use glam::Vec3;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use sliceflow::gpu::{AdapterChoice, Gpu};
+use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
 use sliceflow::plan::{Plan, Wanted};
 use sliceflow::scene::{Particles, Scene};
 use sliceflow::simulation::Simulation;
 
-const GRIDS: [(&str, &str); 4] = [
-    ("uniform", "counting"),
-    ("uniform", "pool"),
-    ("sliced", "counting"),
-    ("sliced", "pool"),
-];
+/// Every addressing with every storage, by name.
+fn grids() -> Vec<(&'static str, &'static str)> {
+    let storages = |addressing| STORAGES.iter().map(move |storage| (addressing, storage.name));
+    ADDRESSINGS
+        .iter()
+        .flat_map(|addressing| storages(addressing.name))
+        .collect()
+}
 
 /// The scene of the tests with these particles at rest, through one grid.
 fn scene_of(dimensions: usize, grid: (&str, &str), axis: &str, slots: usize, points: &[Vec3]) -> Scene {
@@ -59,7 +62,7 @@ fn check(what: &str, dimensions: usize, points: &[Vec3]) {
     } else {
         &["x", "y", "z"]
     };
-    for grid in GRIDS {
+    for grid in grids() {
         for axis in axes {
             if grid.0 == "uniform" && *axis != "y" {
                 continue;
@@ -191,7 +194,7 @@ fn a_pool_reports_what_it_has_no_room_for() {
         .map(|_| min + reach * 0.9 * Vec3::new(rng.random(), rng.random(), rng.random()))
         .collect();
     points.push(min + Vec3::ONE * 10.0 * reach);
-    for addressing in ["uniform", "sliced"] {
+    for addressing in ADDRESSINGS.iter().map(|row| row.name) {
         let scene = scene_of(3, (addressing, "pool"), "y", 4, &points);
         let mut simulation = common::simulate(
             &scene,
@@ -254,7 +257,7 @@ fn sliced_allocates_the_bounding_box_of_each_slice() {
 fn folded_dispatches_do_the_same_work() {
     // Four groups of a dispatch in one dimension, instead of 65,535.
     let points = random(3, 3000, 7);
-    for grid in GRIDS {
+    for grid in grids() {
         let scene = scene_of(3, grid, "y", 64, &points);
         let mut gpu = Gpu::open(&AdapterChoice::Best, true).unwrap();
         gpu.limits.groups = 4;

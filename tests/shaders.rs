@@ -4,6 +4,7 @@ mod common;
 
 use sliceflow::gpu::Shader;
 use sliceflow::gpu::device::Limits;
+use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
 use sliceflow::physics::layout::SHARED;
 use sliceflow::plan::{Plan, Wanted};
 use sliceflow::scene::column::{COLUMNS, Source};
@@ -21,8 +22,8 @@ fn plans() -> Vec<Plan> {
     };
     let mut plans = Vec::new();
     for dimensions in [2, 3] {
-        for addressing in ["uniform", "sliced"] {
-            for storage in ["counting", "pool"] {
+        for addressing in ADDRESSINGS.iter().map(|row| row.name) {
+            for storage in STORAGES.iter().map(|row| row.name) {
                 for integrator in ["symplectic_euler", "velocity_verlet"] {
                     for axis in ["x", "y", "z"] {
                         for (dashpot, walls) in [("full", "contact"), ("normal", "clamp")] {

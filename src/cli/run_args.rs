@@ -15,7 +15,7 @@ pub struct RunArgs {
     /// What pictures show: the scene, the index pool as a heatmap, or both
     #[arg(long, value_parser = ["scene", "pool", "both"])]
     view: Option<String>,
-    /// Neighbor search, ADDRESSING-STORAGE: uniform or sliced, counting or pool: sliced-counting
+    /// Neighbor search, ADDRESSING-STORAGE: uniform, sliced or rows, counting or pool: sliced-counting
     #[arg(long, value_name = "NAME")]
     grid: Option<String>,
     /// Writes particle files in this format

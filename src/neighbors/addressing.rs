@@ -30,6 +30,13 @@ pub const ADDRESSINGS: &[AddressingRow] = &[
         query: "cells/sliced",
         plan: sliced,
     },
+    AddressingRow {
+        kind: Addressing::Rows,
+        name: "rows",
+        source: "ours: slices of slices",
+        query: "cells/rows",
+        plan: rows,
+    },
 ];
 
 /// The row of an addressing.
@@ -66,6 +73,33 @@ fn sliced(search: &mut Search) {
             "build_slices",
             Items::Fixed(1),
             "prefix sum of the slices' voxel counts (Harada 2007, Eq. 3)",
+        ),
+    ]);
+}
+
+fn rows(search: &mut Search) {
+    let rows = u64::from(search.grid.rows());
+    search.buffers.extend([
+        BufferPlan::storage("row_bounds", rows, 8, "extent of each row while it is found"),
+        BufferPlan::storage(
+            "row_record",
+            rows + 1,
+            8,
+            "first voxel of each row and its coordinate",
+        ),
+    ]);
+    search.passes.extend([
+        PassPlan::new(
+            "cells/build_rows",
+            "bound_rows",
+            Items::Particles,
+            "extent of each row's particles",
+        ),
+        PassPlan::new(
+            "cells/build_rows",
+            "build_rows",
+            Items::Fixed(1),
+            "prefix sum of the rows' voxel counts",
         ),
     ]);
 }

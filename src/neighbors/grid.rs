@@ -57,6 +57,11 @@ impl Grid {
         self.size[1] as u32
     }
 
+    /// Rows of voxels along u that the grid has.
+    pub fn rows(&self) -> u32 {
+        (self.size[1] * self.size[2]) as u32
+    }
+
     /// Coordinate along the slicing axis of a local position's voxel; the same arithmetic as in the shader.
     pub fn slice_of(&self, position: Vec3, axis: Axis) -> u32 {
         let along = permuted(position.as_dvec3(), axis)[1] as f32;

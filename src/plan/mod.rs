@@ -203,6 +203,8 @@ impl Plan {
         const GRID: &[&str] = &[
             "slice_bounds",
             "slice_record",
+            "row_bounds",
+            "row_record",
             "voxel_count",
             "voxel_start",
             "block_sum",

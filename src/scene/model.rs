@@ -472,6 +472,8 @@ pub enum Addressing {
     /// The bounding box of each slice (Harada 2007); as fast as `uniform` in a full box, faster in others.
     #[default]
     Sliced,
+    /// The extent of each row in each slice.
+    Rows,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

@@ -152,10 +152,15 @@ impl Simulation {
         if buffers.contains("distance_field") {
             buffers.write(gpu, "distance_field", 0, &self.plan.obstacles.field)?;
         }
+        // Extents of nothing: lowest above highest.
         if buffers.contains("slice_bounds") {
-            let empty = [[i32::MAX, i32::MAX, -i32::MAX, -i32::MAX]];
-            let slices = empty.repeat(self.plan.grid.slices() as usize);
+            let slices =
+                [[i32::MAX, i32::MAX, -i32::MAX, -i32::MAX]].repeat(self.plan.grid.slices() as usize);
             buffers.write(gpu, "slice_bounds", 0, &slices)?;
+        }
+        if buffers.contains("row_bounds") {
+            let rows = [[i32::MAX, -i32::MAX]].repeat(self.plan.grid.rows() as usize);
+            buffers.write(gpu, "row_bounds", 0, &rows)?;
         }
         Ok(())
     }
