@@ -213,4 +213,15 @@ fn what_does_not_fit_is_refused_with_the_number_that_would() {
     };
     assert!(what.contains("index_pool") && what.contains("524288"), "{what}");
     assert!(mend.contains("2048 voxels would fit"), "{mend}");
+
+    let small = Limits {
+        binding: 4000,
+        ..Limits::PROMISED
+    };
+    let scene = common::scene(2, &["neighbors.storage=counting"]);
+    let Error::Limit { mend, .. } = Plan::new(&scene, &small, &Wanted::default()).expect_err("too large")
+    else {
+        panic!("another error");
+    };
+    assert!(mend.contains("500 particles would fit"), "{mend}");
 }

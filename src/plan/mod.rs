@@ -198,25 +198,6 @@ impl Plan {
         buffers + textures
     }
 
-    /// Bytes that the neighbor search takes.
-    pub fn grid_bytes(&self) -> u64 {
-        const GRID: &[&str] = &[
-            "slice_bounds",
-            "slice_record",
-            "row_bounds",
-            "row_record",
-            "voxel_count",
-            "voxel_start",
-            "block_sum",
-            "particle_voxel",
-            "arrival",
-            "arrived",
-            "index_pool",
-        ];
-        let of_grid = self.buffers.iter().filter(|b| GRID.contains(&b.name.as_str()));
-        of_grid.map(|b| b.bytes).sum()
-    }
-
     /// Threads that a pass runs with `particles` particles.
     pub fn threads(items: Items, particles: u32) -> u32 {
         match items {
@@ -242,7 +223,7 @@ impl Plan {
                     "buffer `{}` ({}) needs {} bytes; this adapter binds at most {most} at once",
                     buffer.name, buffer.why, buffer.bytes
                 ),
-                mend: if buffer.bytes == u64::from(self.capacity) * 16 {
+                mend: if !VOXEL_BUFFERS.contains(&buffer.name.as_str()) {
                     format!(
                         "{} particles would fit; or choose another adapter",
                         fitting(self.capacity)
@@ -273,6 +254,9 @@ impl Plan {
         Ok(())
     }
 }
+
+/// Buffers that grow with the number of voxels; the others grow with the number of particles.
+const VOXEL_BUFFERS: &[&str] = &["voxel_count", "voxel_start", "index_pool", "block_sum"];
 
 /// Bytes of one frame of a column that is brought to the host.
 fn column_bytes(scene: &Scene, column: &Column) -> u64 {
