@@ -43,3 +43,52 @@ fn every_link_in_the_readme_exists() {
         );
     }
 }
+
+/// Every Rust file below a folder.
+fn files(folder: &Path, into: &mut Vec<std::path::PathBuf>) {
+    for entry in std::fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            files(&path, into);
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            into.push(path);
+        }
+    }
+}
+
+#[test]
+fn imports_point_one_way() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let map = include_str!("../src/lib.rs");
+    let room = |line: &str| {
+        let path = line.strip_prefix("//! - `src/")?;
+        path.split(['/', '.']).next().map(str::to_owned)
+    };
+    let rooms: Vec<String> = map.lines().filter_map(room).collect();
+    assert_eq!(rooms.len(), 10, "{rooms:?}");
+    let mut found = Vec::new();
+    files(&source, &mut found);
+    let mut wrong = Vec::new();
+    for path in found {
+        let inside = path.strip_prefix(&source).expect("inside").display().to_string();
+        let Some(here) = rooms.iter().position(|room| inside.starts_with(room.as_str())) else {
+            continue;
+        };
+        let text = std::fs::read_to_string(&path).expect("text");
+        // Tests may look anywhere, and so may comments.
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        let code: String = code
+            .lines()
+            .filter(|line| !line.trim_start().starts_with("//"))
+            .collect();
+        for room in &rooms[here + 1..] {
+            if code.contains(&format!("crate::{room}::")) {
+                wrong.push(format!(
+                    "src/{inside} imports {} ({there}), which lies below it",
+                    room
+                ));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
