@@ -83,10 +83,7 @@ fn imports_point_one_way() {
             .collect();
         for room in &rooms[here + 1..] {
             if code.contains(&format!("crate::{room}::")) {
-                wrong.push(format!(
-                    "src/{inside} imports {} ({there}), which lies below it",
-                    room
-                ));
+                wrong.push(format!("src/{inside} imports {}, which lies below it", room));
             }
         }
     }
