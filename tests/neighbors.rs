@@ -269,3 +269,35 @@ fn folded_dispatches_do_the_same_work() {
         assert!(found.start == start && found.ids == ids, "{grid:?}");
     }
 }
+
+#[test]
+fn particles_of_a_voxel_stand_in_canonical_order() {
+    // Many particles in few voxels, so that threads race for the counters: whatever order they arrive in, those of a
+    // voxel must stand in the order that they had before, here that of their ids.
+    let (min, _, reach) = corners(3);
+    let mut rng = ChaCha8Rng::seed_from_u64(8);
+    let points: Vec<Vec3> = (0..4000)
+        .map(|_| min + 3.9 * reach * Vec3::new(rng.random(), rng.random(), rng.random()))
+        .collect();
+    for addressing in ADDRESSINGS.iter().map(|row| row.name) {
+        let scene = scene_of(3, (addressing, "counting"), "y", 4, &points);
+        let grid = sliceflow::neighbors::Grid::new(&scene);
+        let voxel = |id: u32| {
+            let p = points[id as usize];
+            [0, 1, 2].map(|axis| ((p[axis] - grid.lower[axis]) * grid.inverse_side).floor() as i32)
+        };
+        for _ in 0..5 {
+            let mut simulation = common::simulate(&scene, &Wanted::default());
+            simulation.next_frame().unwrap();
+            let buffer = simulation.buffers().get("id", "(test)").unwrap();
+            let ids: Vec<u32> =
+                sliceflow::gpu::readback::read(simulation.gpu(), buffer, points.len()).unwrap();
+            for pair in ids.windows(2) {
+                assert!(
+                    voxel(pair[0]) != voxel(pair[1]) || pair[0] < pair[1],
+                    "{addressing}: {pair:?}"
+                );
+            }
+        }
+    }
+}

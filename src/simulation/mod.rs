@@ -120,6 +120,11 @@ impl Simulation {
         &self.gpu
     }
 
+    /// The device's buffers, by name.
+    pub fn buffers(&self) -> &Buffers {
+        &self.buffers
+    }
+
     /// Times the passes of each frame's last step, and its own; this makes the host wait for every frame.
     pub fn set_timings(&mut self, on: bool) {
         let passes = (self.step.len() + self.observe.len()) as u32;
