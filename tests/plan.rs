@@ -48,8 +48,8 @@ fn two_dimensions_do_no_work_of_three() {
             .unwrap()
             .to_owned();
         (
-            line.contains("= 3u"),
-            line.contains("= 9u"),
+            line.contains("= ROW_VOXELS;"),
+            line.contains("= ROW_VOXELS * ROW_VOXELS;"),
             shader.text.contains("vec3i"),
         )
     };

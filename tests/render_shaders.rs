@@ -25,6 +25,7 @@ fn variants() -> Vec<Variant> {
                     .role("column", format!("render/columns/{}", column.name))
                     .constant("DIMENSIONS", if two { 2 } else { 3 })
                     .constant("SLOTS", 4)
+                    .constant("REACH", 1)
                     .role("addressing", "cells/sliced")
                     .role("storage", "storage/pool/query");
                 all.push(variant);

@@ -133,7 +133,8 @@ fn an_error_names_the_authors_file_and_line() {
     variant
         .flag("two_dimensional", true)
         .role("addressing", "cells/nowhere")
-        .constant("SLOTS", 4);
+        .constant("SLOTS", 4)
+        .constant("REACH", 1);
     let error = Shader::load("storage/pool/query", &variant)
         .err()
         .expect("no such file")
@@ -141,7 +142,7 @@ fn an_error_names_the_authors_file_and_line() {
     assert!(error.contains("shaders/storage/pool/query.wgsl:2"), "{error}");
     assert!(error.contains("shaders/cells/nowhere.wgsl"), "{error}");
     // Without SLOTS the module parses up to the line that names it.
-    variant.constants.clear();
+    variant.constants.remove("SLOTS");
     variant.role("addressing", "cells/uniform");
     let error = Shader::load("storage/pool/query", &variant)
         .err()

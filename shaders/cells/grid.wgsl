@@ -33,16 +33,18 @@ fn permuted(v: Vector) -> Vector {
 #end
 #end
 
+// Neighbors are at most REACH voxels away along each direction (neighbors::Grid).
+const ROW_VOXELS: u32 = 2u * REACH + 1u;
+
 #if two_dimensional
-const ROWS: u32 = 3u; // rows of three voxels around a voxel, its own included
-const BLOCK: u32 = 9u; // voxels of those rows
+const ROWS: u32 = ROW_VOXELS; // rows of voxels around a voxel, its own included
 
 fn grid_size() -> Coordinate {
     return grid.size.xy;
 }
 
 fn row_offset(k: u32) -> Coordinate {
-    return vec2i(0, i32(k) - 1);
+    return vec2i(0, i32(k) - i32(REACH));
 }
 
 // w of a voxel and voxels along w.
@@ -54,15 +56,14 @@ fn third_size() -> i32 {
     return 1;
 }
 #else
-const ROWS: u32 = 9u; // rows of three voxels around a voxel, its own included
-const BLOCK: u32 = 27u; // voxels of those rows
+const ROWS: u32 = ROW_VOXELS * ROW_VOXELS; // rows of voxels around a voxel, its own included
 
 fn grid_size() -> Coordinate {
     return grid.size.xyz;
 }
 
 fn row_offset(k: u32) -> Coordinate {
-    return vec3i(0, i32(k / 3u) - 1, i32(k % 3u) - 1);
+    return vec3i(0, i32(k / ROW_VOXELS) - i32(REACH), i32(k % ROW_VOXELS) - i32(REACH));
 }
 
 // w of a voxel and voxels along w.

@@ -20,16 +20,20 @@ fn address(v: Coordinate) -> u32 {
     return u32(row.x + v.x - row.y);
 }
 
-// Addresses [first, last) of the k-th row of up to three voxels around `home`; they stand side by side.
-fn row_span(home: Coordinate, k: u32) -> vec2u {
+// A row of voxels around a voxel stands side by side in memory.
+const SPANS: u32 = ROWS;
+const SPAN_VOXELS: u32 = ROW_VOXELS;
+
+// Addresses [first, last) of the voxels of the k-th span around `home`.
+fn span(home: Coordinate, k: u32) -> vec2u {
     let at = home + row_offset(k);
     if at.y < 0 || at.y >= grid.size.y || third(at) < 0 || third(at) >= third_size() {
         return vec2u(0u);
     }
     let index = row_of(at);
     let row = row_record[index];
-    let begin = row.x + max(home.x - 1 - row.y, 0);
-    let end = min(row.x + home.x + 2 - row.y, row_record[index + 1u].x);
+    let begin = row.x + max(home.x - i32(REACH) - row.y, 0);
+    let end = min(row.x + home.x + i32(REACH) + 1 - row.y, row_record[index + 1u].x);
     if begin >= end {
         return vec2u(0u);
     }

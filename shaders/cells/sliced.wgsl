@@ -16,8 +16,12 @@ fn address(v: Coordinate) -> u32 {
     return u32(slice.x + (v.x - slice.y) + (third(v) - slice.z) * slice.w);
 }
 
-// Addresses [first, last) of the k-th row of up to three voxels around `home`; they stand side by side.
-fn row_span(home: Coordinate, k: u32) -> vec2u {
+// A row of voxels around a voxel stands side by side in memory.
+const SPANS: u32 = ROWS;
+const SPAN_VOXELS: u32 = ROW_VOXELS;
+
+// Addresses [first, last) of the voxels of the k-th span around `home`.
+fn span(home: Coordinate, k: u32) -> vec2u {
     let row = home + row_offset(k);
     if row.y < 0 || row.y >= grid.size.y {
         return vec2u(0u);
@@ -25,8 +29,8 @@ fn row_span(home: Coordinate, k: u32) -> vec2u {
     let slice = slice_record[row.y];
     let end_of_slice = slice_record[row.y + 1].x;
     let base = slice.x + (third(row) - slice.z) * slice.w;
-    let begin = max(home.x - 1 - slice.y, 0);
-    let end = min(home.x + 2 - slice.y, slice.w);
+    let begin = max(home.x - i32(REACH) - slice.y, 0);
+    let end = min(home.x + i32(REACH) + 1 - slice.y, slice.w);
     if third(row) < slice.z || base >= end_of_slice || begin >= end {
         return vec2u(0u);
     }

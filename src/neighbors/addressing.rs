@@ -9,7 +9,7 @@ pub struct AddressingRow {
     pub kind: Addressing,
     pub name: &'static str,
     pub source: &'static str,
-    /// Shader file that answers `address`, `row_span` and `voxel_total`.
+    /// Shader file that answers `address`, `span` and `voxel_total`.
     pub query: &'static str,
     /// Adds what it needs to a search.
     pub plan: fn(&mut Search),

@@ -37,6 +37,7 @@ pub fn plan(scene: &Scene, variant: &mut Variant) -> Search {
         .role("addressing", addressing.query)
         .role("storage", storage.query)
         .constant("SLOTS", slots)
+        .constant("REACH", 1)
         .flag("slicing_axis_x", slicing_axis == crate::scene::model::Axis::X)
         .flag("slicing_axis_z", slicing_axis == crate::scene::model::Axis::Z);
     let mut search = Search {

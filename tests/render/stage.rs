@@ -129,6 +129,7 @@ pub fn variant(scene: &Scene) -> Variant {
     variant
         .flag("two_dimensional", scene.dimensions == Dimensions::Two)
         .constant("SLOTS", scene.neighbors.slots)
+        .constant("REACH", 1)
         .role("addressing", "cells/uniform")
         .role("storage", "storage/pool/query");
     variant

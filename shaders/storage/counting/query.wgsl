@@ -1,18 +1,18 @@
-// Storage `counting`: particles stand in voxel order, so a row of voxels is one range of particles (Green 2012).
+// Storage `counting`: particles stand in voxel order, so a span of voxels is one range of particles (Green 2012).
 #import <addressing>
 
 // First particle of each voxel, and one more: the particle count.
 var<storage, read> voxel_start: array<u32>;
 
-const RANGES: u32 = ROWS;
+const RANGES: u32 = SPANS;
 
 // Slots [first, last) of the k-th range of candidates around a voxel.
 fn candidate_range(home: Coordinate, k: u32) -> vec2u {
-    let span = row_span(home, k);
-    if span.x >= span.y {
+    let voxels = span(home, k);
+    if voxels.x >= voxels.y {
         return vec2u(0u);
     }
-    return vec2u(voxel_start[span.x], voxel_start[span.y]);
+    return vec2u(voxel_start[voxels.x], voxel_start[voxels.y]);
 }
 
 // The particle in a slot.

@@ -6,13 +6,13 @@ var<storage, read> voxel_count: array<u32>;
 // SLOTS particle indices a voxel, ascending.
 var<storage, read> index_pool: array<u32>;
 
-const RANGES: u32 = BLOCK;
+const RANGES: u32 = SPANS * SPAN_VOXELS;
 
 // Slots [first, last) of the k-th range of candidates around a voxel.
 fn candidate_range(home: Coordinate, k: u32) -> vec2u {
-    let span = row_span(home, k / 3u);
-    let voxel = span.x + k % 3u;
-    if voxel >= span.y {
+    let voxels = span(home, k / SPAN_VOXELS);
+    let voxel = voxels.x + k % SPAN_VOXELS;
+    if voxel >= voxels.y {
         return vec2u(0u);
     }
     let slot = voxel * SLOTS;
