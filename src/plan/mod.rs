@@ -230,8 +230,8 @@ impl Plan {
                     )
                 } else {
                     format!(
-                        "{} voxels would fit instead of {}: shrink the domain, enlarge the grains, use fewer slots, or \
-                         choose another adapter",
+                        "{} voxels would fit instead of {}: shrink the domain, enlarge the grains or the search radius, \
+                         use fewer slots, or choose another adapter",
                         fitting(self.grid.capacity),
                         self.grid.capacity
                     )

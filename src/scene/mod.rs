@@ -20,6 +20,7 @@ mod motion;
 mod obstacles;
 pub mod particle_file;
 mod ply;
+mod points;
 mod schedule;
 pub mod set;
 pub mod shapes;
@@ -191,6 +192,23 @@ pub struct Neighbors {
     pub slicing_axis: Axis,
     /// Indices a voxel of a pool can hold.
     pub slots: u32,
+}
+
+impl From<&model::Neighbors> for Neighbors {
+    fn from(given: &model::Neighbors) -> Self {
+        Self {
+            addressing: given.addressing,
+            storage: given.storage,
+            slicing_axis: given.slicing_axis,
+            slots: given.slots,
+        }
+    }
+}
+
+impl Default for Neighbors {
+    fn default() -> Self {
+        Self::from(&model::Neighbors::default())
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]

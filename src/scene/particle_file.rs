@@ -21,21 +21,44 @@ pub struct Loaded {
 
 /// Reads particles; the extension names the format. An error is a sentence with the place and the mend.
 pub fn load(path: &Path, dimensions: Dimensions) -> Result<Loaded, String> {
-    let extension = path.extension().unwrap_or_default().to_string_lossy();
-    let table = match extension.to_ascii_lowercase().as_str() {
-        "ply" => from_ply(path),
-        "csv" => from_csv(path),
-        "npy" => from_npy(path),
-        _ => {
-            return Err(format!(
-                "{}: particles are read from .ply, .csv and .npy files; convert it to one of them",
-                path.display()
-            ));
-        }
-    }?;
+    let table = read(path)?;
     table
         .check(dimensions)
         .map_err(|what| format!("{}: {what}", path.display()))
+}
+
+/// Reads positions alone, in order of the rows; velocities and ids are passed over. Dimensions follow the file's
+/// columns (2D where there is no z) unless they are given.
+pub fn load_positions(
+    path: &Path,
+    dimensions: Option<Dimensions>,
+) -> Result<(Vec<DVec3>, Dimensions), String> {
+    let mut table = read(path)?;
+    table.present[VELOCITY..].fill(false);
+    for (_, Row(values)) in &mut table.rows {
+        values[VELOCITY..].fill(0.0);
+    }
+    let dimensions = dimensions.unwrap_or(match table.present[Z] {
+        true => Dimensions::Three,
+        false => Dimensions::Two,
+    });
+    let loaded = table
+        .check(dimensions)
+        .map_err(|what| format!("{}: {what}", path.display()))?;
+    Ok((loaded.position, dimensions))
+}
+
+fn read(path: &Path) -> Result<Table, String> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    match extension.to_ascii_lowercase().as_str() {
+        "ply" => from_ply(path),
+        "csv" => from_csv(path),
+        "npy" => from_npy(path),
+        _ => Err(format!(
+            "{}: particles are read from .ply, .csv and .npy files; convert it to one of them",
+            path.display()
+        )),
+    }
 }
 
 /// What a particle can have, in the order of [`Row`]: name and alias.
@@ -87,7 +110,7 @@ impl Table {
                 .map(|c| COLUMNS[c][0])
                 .collect();
             return Err(format!(
-                "a {axes}D scene needs the columns {}, and {} is missing; add it or name it in the header",
+                "{axes}D needs the columns {}, and {} is missing; add it or name it in the header",
                 ["x, y", "x, y, z"][axes - 2],
                 missing.join(", ")
             ));
@@ -115,7 +138,7 @@ impl Table {
                 if dimensions == Dimensions::Two && values[flat] != 0.0 {
                     let name = COLUMNS[flat][0];
                     return Err(format!(
-                        "{place}: {name} is {} in a 2D scene; leave the column out or set `dimensions` to 3",
+                        "{place}: {name} is {} in 2D; leave the column out or set `dimensions` to 3",
                         values[flat]
                     ));
                 }
@@ -372,6 +395,23 @@ mod tests {
     }
 
     #[test]
+    fn positions_alone_follow_the_columns_and_the_rows() {
+        let folder = tempfile::tempdir().unwrap();
+        let flat = file(&folder, "flat.csv", "y,id,x,vx\n2,7,1,nan\n4,7,3,0\n");
+        let (position, dimensions) = load_positions(&flat, None).unwrap();
+        assert_eq!(position, [DVec3::new(1.0, 2.0, 0.0), DVec3::new(3.0, 4.0, 0.0)]);
+        assert_eq!(dimensions, Two);
+        let deep = file(&folder, "deep.csv", "1,2,0\n1,2,nan\n");
+        let message = load_positions(&deep, None).unwrap_err();
+        assert!(message.contains("deep.csv: line 2: z is NaN"), "{message}");
+        assert!(
+            load_positions(&flat, Some(Three))
+                .unwrap_err()
+                .contains("z is missing")
+        );
+    }
+
+    #[test]
     fn npy_of_both_widths_precisions_and_orders() {
         use npyz::WriterBuilder;
         let folder = tempfile::tempdir().unwrap();
@@ -437,7 +477,7 @@ mod tests {
                 "i.csv",
                 "x,y,z\n0,0,0\n0,0,0.1\n".into(),
                 Two,
-                "line 3: z is 0.1 in a 2D scene",
+                "line 3: z is 0.1 in 2D",
             ),
             (
                 "j.csv",

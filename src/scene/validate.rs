@@ -129,12 +129,7 @@ fn neighbors(file: &SceneFile, dimensions: Dimensions, report: &mut Report) -> N
             "slice across `x` or `y`",
         );
     }
-    Neighbors {
-        addressing: given.addressing,
-        storage: given.storage,
-        slicing_axis: given.slicing_axis,
-        slots: given.slots,
-    }
+    given.into()
 }
 
 /// Pixels along a side.

@@ -9,6 +9,7 @@ use sliceflow::scene::load;
 use sliceflow::simulation::Simulation;
 
 /// A small scene that has a bit of everything, in two or three dimensions, with overrides.
+#[allow(dead_code)]
 pub fn scene(dimensions: usize, overrides: &[&str]) -> Scene {
     let text = match dimensions {
         2 => include_str!("scene_2d.json"),
