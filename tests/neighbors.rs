@@ -20,18 +20,34 @@ fn grids() -> Vec<(&'static str, &'static str)> {
         .collect()
 }
 
-/// The scene of the tests with these particles at rest, through one grid.
+/// The scene of the tests with these particles at rest and open sides, through one grid.
 fn scene_of(dimensions: usize, grid: (&str, &str), axis: &str, slots: usize, points: &[Vec3]) -> Scene {
-    let mut scene = common::scene(
-        dimensions,
-        &[
-            &format!("neighbors.addressing={}", grid.0),
-            &format!("neighbors.storage={}", grid.1),
-            &format!("neighbors.slicing_axis={axis}"),
-            &format!("neighbors.slots={slots}"),
-            "colliders=[]",
-        ],
-    );
+    scene_with(dimensions, grid, axis, slots, points, &[])
+}
+
+fn scene_with(
+    dimensions: usize,
+    grid: (&str, &str),
+    axis: &str,
+    slots: usize,
+    points: &[Vec3],
+    more: &[&str],
+) -> Scene {
+    let choices = [
+        format!("neighbors.addressing={}", grid.0),
+        format!("neighbors.storage={}", grid.1),
+        format!("neighbors.slicing_axis={axis}"),
+        format!("neighbors.slots={slots}"),
+        "domain.walls=open".into(),
+        "domain.sides={}".into(),
+        "colliders=[]".into(),
+    ];
+    let all: Vec<&str> = choices
+        .iter()
+        .map(String::as_str)
+        .chain(more.iter().copied())
+        .collect();
+    let mut scene = common::scene(dimensions, &all);
     scene.particles = Particles {
         position: points.to_vec(),
         velocity: vec![Vec3::ZERO; points.len()],
@@ -64,20 +80,28 @@ fn check(what: &str, dimensions: usize, points: &[Vec3]) {
     };
     for grid in grids() {
         for axis in axes {
-            if grid.0 == "uniform" && *axis != "y" {
+            let slices = !["uniform", "hash", "morton"].contains(&grid.0);
+            if !slices && *axis != "y" {
                 continue;
             }
             // Room for everybody: overflow has a test of its own.
             let scene = scene_of(dimensions, grid, axis, 64, points);
-            let mut simulation = common::simulate(&scene, &Wanted::default());
-            simulation.next_frame().expect("the first search");
-            let found = simulation.neighbor_lists().expect("neighbors");
-            let (start, ids) = brute_force(points, (2.0 * scene.grains.radius) as f32);
-            let label = format!("{what}, {dimensions}D, {} × {}, axis {axis}", grid.0, grid.1);
-            assert_eq!(found.start, start, "{label}: numbers of neighbors");
-            assert_eq!(found.ids, ids, "{label}: neighbors");
+            check_scene(
+                &format!("{what}, {dimensions}D, {} × {}, axis {axis}", grid.0, grid.1),
+                &scene,
+            );
         }
     }
+}
+
+fn check_scene(label: &str, scene: &Scene) {
+    let points = &scene.particles.position;
+    let mut simulation = common::simulate(scene, &Wanted::default());
+    simulation.next_frame().expect("the first search");
+    let found = simulation.neighbor_lists().expect("neighbors");
+    let (start, ids) = brute_force(points, (2.0 * scene.grains.radius) as f32);
+    assert_eq!(found.start, start, "{label}: numbers of neighbors");
+    assert_eq!(found.ids, ids, "{label}: neighbors");
 }
 
 /// Lower and upper corner of the test scene's domain, which has negative coordinates.
@@ -104,6 +128,38 @@ fn random_points() {
 }
 
 #[test]
+fn voxels_of_half_the_radius() {
+    for dimensions in [2, 3] {
+        let points = random(dimensions, 1200, 9);
+        for grid in grids() {
+            let scene = scene_with(dimensions, grid, "y", 64, &points, &["neighbors.cell=half"]);
+            check_scene(&format!("half, {dimensions}D, {grid:?}"), &scene);
+        }
+    }
+}
+
+#[test]
+fn clusters_sheets_and_lines() {
+    let (min, max, reach) = corners(3);
+    let mut rng = ChaCha8Rng::seed_from_u64(10);
+    let mut unit = || Vec3::new(rng.random(), rng.random(), rng.random());
+    let corner = max - Vec3::splat(3.0 * reach);
+    let clusters = (0..600)
+        .map(|i| if i % 2 == 0 { min } else { corner } + 3.0 * reach * unit())
+        .collect::<Vec<_>>();
+    check("clusters", 3, &clusters);
+    let sheet = random(3, 900, 11)
+        .iter()
+        .map(|p| Vec3::new(p.x, 0.01 * p.y, p.z))
+        .collect::<Vec<_>>();
+    check("sheet", 3, &sheet);
+    let line = (0..300)
+        .map(|i| min + (max - min) * (i as f32 / 299.0))
+        .collect::<Vec<_>>();
+    check("line", 3, &line);
+}
+
+#[test]
 fn few_points() {
     for dimensions in [2, 3] {
         let (min, max, reach) = corners(dimensions);
@@ -117,7 +173,7 @@ fn few_points() {
 fn lattice_with_neighbors_at_exactly_the_radius_and_on_voxel_borders() {
     for dimensions in [2, 3] {
         let (min, _, reach) = corners(dimensions);
-        let grid = sliceflow::neighbors::Grid::new(&common::scene(dimensions, &[]));
+        let grid = sliceflow::neighbors::first_grid(&common::scene(dimensions, &[]));
         let depth = if dimensions == 2 { 1 } else { 6 };
         for step in [reach, grid.side] {
             let mut points = Vec::new();
@@ -222,7 +278,7 @@ fn sliced_allocates_the_bounding_box_of_each_slice() {
     // Harada 2007, Eq. 1 to 3, on the host.
     let points = random(3, 300, 6);
     let scene = scene_of(3, ("sliced", "pool"), "y", 4, &points);
-    let grid = sliceflow::neighbors::Grid::new(&scene);
+    let grid = sliceflow::neighbors::first_grid(&scene);
     let mut boxes = std::collections::BTreeMap::new();
     for p in &points {
         let voxel = |axis: usize| ((p[axis] - grid.lower[axis]) * grid.inverse_side).floor() as i32;
@@ -281,7 +337,7 @@ fn particles_of_a_voxel_stand_in_canonical_order() {
         .collect();
     for addressing in ADDRESSINGS.iter().map(|row| row.name) {
         let scene = scene_of(3, (addressing, "counting"), "y", 4, &points);
-        let grid = sliceflow::neighbors::Grid::new(&scene);
+        let grid = sliceflow::neighbors::first_grid(&scene);
         let voxel = |id: u32| {
             let p = points[id as usize];
             [0, 1, 2].map(|axis| ((p[axis] - grid.lower[axis]) * grid.inverse_side).floor() as i32)

@@ -7,29 +7,23 @@ use sliceflow::scene::column::COLUMNS;
 fn variants() -> Vec<Variant> {
     let mut all = Vec::new();
     for (two, solid, floor) in [(true, false, false), (false, false, false), (false, true, true)] {
-        for axis in ["slicing_axis_x", "slicing_axis_y", "slicing_axis_z"] {
-            if two && axis == "slicing_axis_z" {
-                continue;
-            }
-            for column in COLUMNS {
-                let mut variant = Variant::default();
-                variant
-                    .flag("two_dimensional", two)
-                    .flag("shadows", solid)
-                    .flag("occlusion", solid)
-                    .flag("round_shadows", solid)
-                    .flag("has_floor", floor)
-                    .flag(axis, true)
-                    .constant("SHADOW_TEXELS", 1024)
-                    .constant("OCCLUSION_BLOCK", 8)
-                    .role("column", format!("render/columns/{}", column.name))
-                    .constant("DIMENSIONS", if two { 2 } else { 3 })
-                    .constant("SLOTS", 4)
-                    .constant("REACH", 1)
-                    .role("addressing", "cells/sliced")
-                    .role("storage", "storage/pool/query");
-                all.push(variant);
-            }
+        for column in COLUMNS {
+            let mut variant = Variant::default();
+            variant
+                .flag("two_dimensional", two)
+                .flag("shadows", solid)
+                .flag("occlusion", solid)
+                .flag("round_shadows", solid)
+                .flag("has_floor", floor)
+                .constant("SHADOW_TEXELS", 1024)
+                .constant("OCCLUSION_BLOCK", 8)
+                .role("column", format!("render/columns/{}", column.name))
+                .constant("DIMENSIONS", if two { 2 } else { 3 })
+                .constant("SLOTS", 4)
+                .constant("REACH", 1)
+                .role("addressing", "cells/sliced")
+                .role("storage", "storage/pool/query");
+            all.push(variant);
         }
     }
     all

@@ -5,16 +5,14 @@
 #import common/parameters
 #import common/workgroup_scan
 #import cells/grid
-
-const NOTHING_BELOW: i32 = 0x7fffffff;
-const NOTHING_ABOVE: i32 = -0x7fffffff;
+#import cells/growth
+#import cells/extent
 
 var<storage, read> next_position: array<Packed>;
 // Four values a slice: lowest u, lowest w, highest u, highest w.
 var<storage, read_write> slice_bounds: array<atomic<i32>>;
 var<storage, read_write> slice_record: array<vec4i>;
 
-// The look before the atomic spares nearly all of them: a box stops growing after its first few particles.
 fn lower_to(index: u32, value: i32) {
     if value < atomicLoad(&slice_bounds[index]) {
         atomicMin(&slice_bounds[index], value);
@@ -27,6 +25,7 @@ fn raise_to(index: u32, value: i32) {
     }
 }
 
+// The look before the atomic spares nearly all of them: a box stops growing after its first few particles.
 @compute @workgroup_size(GROUP_SIZE)
 fn bound_slices(thread: Thread) {
     let i = item_index(thread);
@@ -34,7 +33,11 @@ fn bound_slices(thread: Thread) {
         return;
     }
     let voxel = voxel_of(unpack(next_position[i]));
-    let bounds = 4u * u32(voxel.y);
+    if is_quarantined(voxel) {
+        atomicAdd(&search_state.quarantined_so_far, 1u);
+        return;
+    }
+    let bounds = 4u * u32(voxel.y - grid.low.y);
     lower_to(bounds, voxel.x);
     lower_to(bounds + 1u, third(voxel));
     raise_to(bounds + 2u, voxel.x);
@@ -44,7 +47,7 @@ fn bound_slices(thread: Thread) {
 // One workgroup. Leaves the bounds empty for the next search.
 @compute @workgroup_size(SCAN_THREADS)
 fn build_slices(@builtin(local_invocation_index) thread: u32) {
-    let slices = u32(grid.size.y);
+    let slices = u32(grid.high.y - grid.low.y);
     var first_index = 0u;
     for (var base = 0u; base < slices; base += SCAN_THREADS) {
         let s = base + thread;
@@ -69,6 +72,7 @@ fn build_slices(@builtin(local_invocation_index) thread: u32) {
         first_index += sum.total;
     }
     if thread == 0u {
-        slice_record[slices] = vec4i(i32(first_index), 0, 0, 0);
+        let total = select(0u, first_index, set_voxels(first_index));
+        slice_record[slices] = vec4i(i32(total), 0, 0, 0);
     }
 }

@@ -3,35 +3,18 @@
 
 struct Grid {
     lower: vec4f, // lower corner of voxel 0, in (u, s, w) order, m
-    size: vec4i, // voxels along u, s, w
-    inverse_side: f32, // 1/m; voxels are a little wider than the search radius, so that rounding loses no neighbor
+    size: vec4i, // voxels of the domain along u, s, w
+    low: vec4i, // lowest voxel coordinates that the search follows
+    high: vec4i, // one above the highest
+    inverse_side: f32, // 1/m; voxels are a little wider than the search needs, so that rounding loses no neighbor
     side: f32, // m
+    axis: u32, // that slices are cut across: 0 x, 1 y, 2 z
     capacity: u32, // voxels that the buffers have room for
+    row_capacity: u32, // rows that the tables have room for
+    word_capacity: u32, // words of 32 voxels that the bitmap has room for
 }
 
 var<uniform> grid: Grid;
-
-#if slicing_axis_x
-#if two_dimensional
-fn permuted(v: Vector) -> Vector {
-    return v.yx;
-}
-#else
-fn permuted(v: Vector) -> Vector {
-    return v.yxz;
-}
-#end
-#else
-#if slicing_axis_z
-fn permuted(v: Vector) -> Vector {
-    return v.xzy;
-}
-#else
-fn permuted(v: Vector) -> Vector {
-    return v;
-}
-#end
-#end
 
 // Neighbors are at most REACH voxels away along each direction (neighbors::Grid).
 const ROW_VOXELS: u32 = 2u * REACH + 1u;
@@ -39,8 +22,12 @@ const ROW_VOXELS: u32 = 2u * REACH + 1u;
 #if two_dimensional
 const ROWS: u32 = ROW_VOXELS; // rows of voxels around a voxel, its own included
 
-fn grid_size() -> Coordinate {
-    return grid.size.xy;
+fn permuted(v: Vector) -> Vector {
+    return select(v, v.yx, grid.axis == 0u);
+}
+
+fn first_of(v: vec4i) -> Coordinate {
+    return v.xy;
 }
 
 fn row_offset(k: u32) -> Coordinate {
@@ -58,8 +45,12 @@ fn third_size() -> i32 {
 #else
 const ROWS: u32 = ROW_VOXELS * ROW_VOXELS; // rows of voxels around a voxel, its own included
 
-fn grid_size() -> Coordinate {
-    return grid.size.xyz;
+fn permuted(v: Vector) -> Vector {
+    return select(select(v, v.yxz, grid.axis == 0u), v.xzy, grid.axis == 2u);
+}
+
+fn first_of(v: vec4i) -> Coordinate {
+    return v.xyz;
 }
 
 fn row_offset(k: u32) -> Coordinate {
@@ -76,9 +67,31 @@ fn third_size() -> i32 {
 }
 #end
 
+#if bounded
 // The voxel of a point. Points outside the grid belong to the nearest voxel at its border: clamping never separates
 // two points by more voxels than there are between them, so no neighbor is lost.
 fn voxel_of(point: Vector) -> Coordinate {
     let scaled = floor((permuted(point) - first(grid.lower)) * grid.inverse_side);
-    return Coordinate(clamp(scaled, Vector(0.0), Vector(grid_size() - Coordinate(1))));
+    return Coordinate(clamp(scaled, Vector(0.0), Vector(first_of(grid.size) - Coordinate(1))));
 }
+
+fn is_quarantined(v: Coordinate) -> bool {
+    return false;
+}
+#else
+// Of a point that the search does not follow; no voxel is near it.
+const QUARANTINE: i32 = 0x20000000;
+
+// The voxel of a point, inside the domain or beyond it.
+fn voxel_of(point: Vector) -> Coordinate {
+    let scaled = floor((permuted(point) - first(grid.lower)) * grid.inverse_side);
+    let low = Vector(first_of(grid.low));
+    let high = Vector(first_of(grid.high));
+    let followed = all(scaled >= low) && all(scaled < high);
+    return select(Coordinate(QUARANTINE), Coordinate(clamp(scaled, low, high)), followed);
+}
+
+fn is_quarantined(v: Coordinate) -> bool {
+    return v.x == QUARANTINE;
+}
+#end

@@ -1,18 +1,18 @@
 // Addressing `sliced`: each slice has voxels in the bounding box of its particles only (Harada 2007, Eq. 1 to 5).
 #import common/vector
 #import cells/grid
-
-// One record a slice: index of its first voxel p, lower corner of its box along u and w, voxels along u.
-// One more stands at the end; its p is the number of voxels in all.
-var<storage, read> slice_record: array<vec4i>;
+#import cells/slices
 
 fn voxel_total() -> u32 {
-    return u32(slice_record[grid.size.y].x);
+    return u32(slice_record[slice_count()].x);
 }
 
 // Eq. 5, for a voxel inside its slice's box.
 fn address(v: Coordinate) -> u32 {
-    let slice = slice_record[v.y];
+    if is_quarantined(v) {
+        return voxel_total();
+    }
+    let slice = slice_record[slice_index(v)];
     return u32(slice.x + (v.x - slice.y) + (third(v) - slice.z) * slice.w);
 }
 
@@ -23,11 +23,12 @@ const SPAN_VOXELS: u32 = ROW_VOXELS;
 // Addresses [first, last) of the voxels of the k-th span around `home`.
 fn span(home: Coordinate, k: u32) -> vec2u {
     let row = home + row_offset(k);
-    if row.y < 0 || row.y >= grid.size.y {
+    if row.y < grid.low.y || row.y >= grid.high.y {
         return vec2u(0u);
     }
-    let slice = slice_record[row.y];
-    let end_of_slice = slice_record[row.y + 1].x;
+    let index = slice_index(row);
+    let slice = slice_record[index];
+    let end_of_slice = slice_record[index + 1u].x;
     let base = slice.x + (third(row) - slice.z) * slice.w;
     let begin = max(home.x - i32(REACH) - slice.y, 0);
     let end = min(home.x + i32(REACH) + 1 - slice.y, slice.w);

@@ -17,15 +17,7 @@ struct Slab {
 
 // From the slices' order of axes (u, s, w) to x, y, z.
 fn unpermute(usw: vec3f) -> vec3f {
-#if slicing_axis_x
-    return usw.yxz;
-#else
-#if slicing_axis_z
-    return usw.xzy;
-#else
-    return usw;
-#end
-#end
+    return select(select(usw, usw.yxz, grid.axis == 0u), usw.xzy, grid.axis == 2u);
 }
 
 fn slab(s: u32) -> Slab {
@@ -36,7 +28,7 @@ fn slab(s: u32) -> Slab {
         return box;
     }
     let extent = vec3f(f32(record.w), 1.0, f32(voxels / record.w));
-    let corner = vec3f(f32(record.y), f32(s), f32(record.z));
+    let corner = vec3f(f32(record.y), f32(s) + f32(grid.low.y), f32(record.z));
     box.low = unpermute(grid.lower.xyz + corner * grid.side);
     box.size = unpermute(extent * grid.side);
 #if two_dimensional

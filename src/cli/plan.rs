@@ -196,7 +196,7 @@ impl fmt::Display for Report<'_> {
             passes.row([
                 pass.entry.clone(),
                 when(row.phase).to_owned(),
-                count(Plan::threads(pass.items, plan.capacity).into()),
+                count(plan.most_items(pass.items, plan.capacity).into()),
                 pass.shader.clone(),
                 pass.why.clone(),
             ]);

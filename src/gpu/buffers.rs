@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::error::{Error, Result};
-use crate::gpu::Gpu;
+use crate::gpu::{BufferPlan, Gpu};
 
 /// How a buffer is used besides being bound.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -11,6 +11,8 @@ pub enum Usage {
     Uniform,
     #[default]
     Storage,
+    /// Storage that holds arguments of dispatches.
+    Indirect,
 }
 
 /// The buffers of a simulation.
@@ -25,6 +27,7 @@ impl Buffers {
         let binding = match usage {
             Usage::Uniform => wgpu::BufferUsages::UNIFORM,
             Usage::Storage => wgpu::BufferUsages::STORAGE,
+            Usage::Indirect => wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT,
         };
         let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(name),
@@ -33,6 +36,16 @@ impl Buffers {
             mapped_at_creation: false,
         });
         self.by_name.insert(name.to_owned(), buffer);
+    }
+
+    /// Creates a buffer as planned, with what it begins with.
+    pub fn make(&mut self, gpu: &Gpu, plan: &BufferPlan) -> Result<()> {
+        self.create(gpu, &plan.name, plan.bytes, plan.usage);
+        if !plan.fill.is_empty() {
+            let times = plan.bytes as usize / size_of_val(plan.fill);
+            self.write(gpu, &plan.name, 0, &plan.fill.repeat(times))?;
+        }
+        Ok(())
     }
 
     /// The buffer that `user` asks for.

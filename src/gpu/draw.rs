@@ -3,6 +3,7 @@
 //! There are no vertex buffers: the vertex stage pulls what it needs from storage buffers.
 
 use crate::error::Result;
+use crate::gpu::binding::{Bindings, Given};
 use crate::gpu::{Buffers, Gpu, Shader};
 
 /// Depth is kept as 32-bit floats.
@@ -40,11 +41,11 @@ impl Draw {
         fragment: Option<&str>,
         style: DrawStyle,
         buffers: &Buffers,
-        textures: &[(&str, wgpu::BindingResource<'_>)],
+        given: &[Given<'_>],
     ) -> Result<Self> {
         let entries: Vec<&str> = std::iter::once(vertex).chain(fragment).collect();
         let visibility = wgpu::ShaderStages::VERTEX_FRAGMENT;
-        let (layout, bind_group) = shader.bind(gpu, &entries, visibility, buffers, textures)?;
+        let bindings = Bindings::new(gpu, shader, &entries, visibility)?;
         let module = shader.module(gpu);
         let blend = style.color.map_or(Blend::Opaque, |(_, blend)| blend);
         let target = style.color.map(|(format, blend)| wgpu::ColorTargetState {
@@ -63,7 +64,7 @@ impl Draw {
             .device
             .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(vertex),
-                layout: Some(&layout),
+                layout: Some(&bindings.pipeline_layout(gpu)),
                 vertex: wgpu::VertexState {
                     module: &module,
                     entry_point: Some(vertex),
@@ -95,7 +96,7 @@ impl Draw {
         Ok(Self {
             label: vertex.to_owned(),
             pipeline,
-            bind_group,
+            bind_group: bindings.bind(gpu, buffers, given)?,
         })
     }
 

@@ -3,6 +3,7 @@
 //! The host never writes a binding number, a bind group layout or a workgroup size: a [`Pass`] reads them from its
 //! shader and binds each buffer by the name that it has everywhere.
 
+pub mod binding;
 pub mod buffers;
 pub mod compose;
 pub mod device;
@@ -18,6 +19,6 @@ pub use buffers::Buffers;
 pub use compose::Variant;
 pub use device::{AdapterChoice, Gpu};
 pub use draw::{Blend, Draw, DrawStyle};
-pub use parts::{BufferPlan, Items, PassPlan};
-pub use pass::Pass;
+pub use parts::{BufferPlan, DISPATCHES, Items, PassPlan};
+pub use pass::{Groups, Kernel, Pass};
 pub use reflect::Shader;

@@ -11,6 +11,9 @@ pub struct BufferPlan {
     pub bytes: u64,
     #[serde(skip)]
     pub usage: Usage,
+    /// What it holds before anything runs, over and over; empty for zeros.
+    #[serde(skip)]
+    pub fill: &'static [i32],
     pub why: String,
 }
 
@@ -21,6 +24,7 @@ impl BufferPlan {
             name: name.to_owned(),
             bytes: count * element,
             usage: Usage::Storage,
+            fill: &[],
             why: why.into(),
         }
     }
@@ -31,21 +35,56 @@ impl BufferPlan {
             name: name.to_owned(),
             bytes: bytes as u64,
             usage: Usage::Uniform,
+            fill: &[],
             why: why.into(),
         }
     }
+
+    /// A storage buffer that also holds arguments of dispatches.
+    pub fn indirect(name: &str, count: u64, element: u64, why: impl Into<String>) -> Self {
+        Self {
+            usage: Usage::Indirect,
+            ..Self::storage(name, count, element, why)
+        }
+    }
+
+    /// The same buffer, beginning with a pattern over and over instead of zeros.
+    pub fn filled_with(self, fill: &'static [i32]) -> Self {
+        Self { fill, ..self }
+    }
 }
 
-/// How many threads a pass needs.
+/// How many threads a pass runs. All but a fixed number come from the buffer `dispatch` on the device, so that a search
+/// without room can stop what follows it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Items {
     /// One a particle that exists when the pass runs.
     Particles,
-    /// One a voxel that the grid may have.
-    Voxels(u32),
-    /// A number known beforehand.
+    /// One a voxel that the search has.
+    Voxels,
+    /// For prefix sums over the voxels: a workgroup for each block of them.
+    VoxelBlocks,
+    /// One workgroup.
+    Once,
+    /// A number known beforehand, come what may.
     Fixed(u32),
+}
+
+/// Entries of the buffer `dispatch`: one for each kind of [`Items`] but the last.
+pub const DISPATCHES: u64 = 4;
+
+impl Items {
+    /// Which entry of `dispatch` has the number of workgroups.
+    pub fn dispatch_entry(self) -> Option<u64> {
+        match self {
+            Self::Particles => Some(0),
+            Self::Voxels => Some(1),
+            Self::VoxelBlocks => Some(2),
+            Self::Once => Some(3),
+            Self::Fixed(_) => None,
+        }
+    }
 }
 
 /// A compute pass that a plan asks for. Its label is its entry point: a verb.
@@ -55,6 +94,9 @@ pub struct PassPlan {
     pub shader: String,
     pub entry: String,
     pub items: Items,
+    /// Which one it is, where a pass runs several times: `pass_index` of `common/pass_index.wgsl`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub index: Option<u32>,
     pub why: String,
 }
 
@@ -64,7 +106,16 @@ impl PassPlan {
             shader: shader.to_owned(),
             entry: entry.to_owned(),
             items,
+            index: None,
             why: why.into(),
+        }
+    }
+
+    /// The same pass with a number of its own.
+    pub fn index(self, index: u32) -> Self {
+        Self {
+            index: Some(index),
+            ..self
         }
     }
 }

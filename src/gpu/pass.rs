@@ -1,7 +1,70 @@
 //! A compute pass: an entry point of a shader, its buffers bound by name.
 
 use crate::error::Result;
+use crate::gpu::binding::{Bindings, Given};
 use crate::gpu::{Buffers, Gpu, Shader};
+
+/// Bytes from one element of `pass_index` to the next; a multiple of every adapter's alignment of uniforms.
+pub const INDEX_STRIDE: u64 = 256;
+
+/// A compiled entry point: what all passes that run it share.
+#[derive(Clone)]
+pub struct Kernel {
+    label: String,
+    pipeline: wgpu::ComputePipeline,
+    bindings: Bindings,
+    threads: u32,
+}
+
+impl Kernel {
+    pub fn new(gpu: &Gpu, shader: &Shader, entry: &str) -> Result<Self> {
+        let bindings = Bindings::new(gpu, shader, &[entry], wgpu::ShaderStages::COMPUTE)?;
+        let pipeline = gpu
+            .device
+            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(entry),
+                layout: Some(&bindings.pipeline_layout(gpu)),
+                module: &shader.module(gpu),
+                entry_point: Some(entry),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    zero_initialize_workgroup_memory: gpu.checked_shaders,
+                    ..Default::default()
+                },
+                cache: None,
+            });
+        Ok(Self {
+            label: entry.to_owned(),
+            pipeline,
+            bindings,
+            threads: shader.workgroup_threads(entry)?,
+        })
+    }
+
+    /// A pass over this entry point that finds everything in `buffers`.
+    pub fn pass(&self, gpu: &Gpu, buffers: &Buffers) -> Result<Pass> {
+        self.pass_with(gpu, buffers, &[])
+    }
+
+    /// A pass whose `pass_index` is the element at `place` of the buffer of that name.
+    pub fn numbered_pass(&self, gpu: &Gpu, buffers: &Buffers, place: usize) -> Result<Pass> {
+        let element = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: buffers.get("pass_index", &self.label)?,
+            offset: place as u64 * INDEX_STRIDE,
+            size: wgpu::BufferSize::new(4),
+        });
+        self.pass_with(gpu, buffers, &[("pass_index", element)])
+    }
+
+    fn pass_with(&self, gpu: &Gpu, buffers: &Buffers, given: &[Given<'_>]) -> Result<Pass> {
+        Ok(Pass {
+            label: self.label.clone(),
+            pipeline: self.pipeline.clone(),
+            bind_group: self.bindings.bind(gpu, buffers, given)?,
+            threads: self.threads,
+            max_groups: gpu.limits.groups,
+        })
+    }
+}
 
 pub struct Pass {
     pub label: String,
@@ -14,7 +77,7 @@ pub struct Pass {
 
 impl Pass {
     pub fn new(gpu: &Gpu, shader: &Shader, entry: &str, buffers: &Buffers) -> Result<Self> {
-        Self::with_textures(gpu, shader, entry, buffers, &[])
+        Kernel::new(gpu, shader, entry)?.pass(gpu, buffers)
     }
 
     /// A pass that also reads textures, given by name.
@@ -23,41 +86,37 @@ impl Pass {
         shader: &Shader,
         entry: &str,
         buffers: &Buffers,
-        textures: &[(&str, wgpu::BindingResource<'_>)],
+        textures: &[Given<'_>],
     ) -> Result<Self> {
-        let (layout, bind_group) =
-            shader.bind(gpu, &[entry], wgpu::ShaderStages::COMPUTE, buffers, textures)?;
-        let module = shader.module(gpu);
-        let pipeline = gpu
-            .device
-            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(entry),
-                layout: Some(&layout),
-                module: &module,
-                entry_point: Some(entry),
-                compilation_options: wgpu::PipelineCompilationOptions {
-                    zero_initialize_workgroup_memory: gpu.checked_shaders,
-                    ..Default::default()
-                },
-                cache: None,
-            });
-        Ok(Self {
-            label: entry.to_owned(),
-            pipeline,
-            bind_group,
-            threads: shader.workgroup_threads(entry)?,
-            max_groups: gpu.limits.groups,
-        })
+        Kernel::new(gpu, shader, entry)?.pass_with(gpu, buffers, textures)
     }
 
     /// Runs at least `items` threads. More groups than one dimension holds are folded into a second one, which
     /// `thread_index` of `common/thread.wgsl` unfolds.
     pub fn encode(&self, pass: &mut wgpu::ComputePass<'_>, items: u32) {
-        let (x, y) = fold(items.div_ceil(self.threads), self.max_groups);
+        self.dispatch(pass, Groups::For(items));
+    }
+
+    pub fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>, groups: Groups<'_>) {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &self.bind_group, &[]);
-        pass.dispatch_workgroups(x, y, 1);
+        match groups {
+            Groups::For(items) => {
+                let (x, y) = fold(items.div_ceil(self.threads), self.max_groups);
+                pass.dispatch_workgroups(x, y, 1);
+            }
+            Groups::From(buffer, offset) => pass.dispatch_workgroups_indirect(buffer, offset),
+        }
     }
+}
+
+/// How many workgroups a dispatch has.
+#[derive(Clone, Copy)]
+pub enum Groups<'a> {
+    /// As many as so many threads need.
+    For(u32),
+    /// What stands at this offset of a buffer, in bytes: x, y, z.
+    From(&'a wgpu::Buffer, u64),
 }
 
 /// Splits `groups` workgroups into two dimensions of at most `most` each, the first as wide as possible.

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use crate::error::Result;
-use crate::gpu::{Gpu, Pass, readback};
+use crate::gpu::{Gpu, Groups, Pass, readback};
 
 /// Times passes one by one.
 pub enum Timer {
@@ -42,14 +42,14 @@ impl Timer {
         })
     }
 
-    /// Runs passes with their numbers of items, in order, waits for them, and gives label and milliseconds of each.
-    pub fn run(&self, gpu: &Gpu, passes: &[(&Pass, u32)]) -> Result<Vec<(String, f64)>> {
+    /// Runs passes with their workgroups, in order, waits for them, and gives label and milliseconds of each.
+    pub fn run(&self, gpu: &Gpu, passes: &[(&Pass, Groups<'_>)]) -> Result<Vec<(String, f64)>> {
         match self {
             Self::HostClock => {
                 gpu.wait(None)?;
-                let time = |(pass, items): &(&Pass, u32)| {
+                let time = |(pass, groups): &(&Pass, Groups<'_>)| {
                     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-                    pass.encode(&mut encoder.begin_compute_pass(&Default::default()), *items);
+                    pass.dispatch(&mut encoder.begin_compute_pass(&Default::default()), *groups);
                     let start = Instant::now();
                     gpu.queue.submit([encoder.finish()]);
                     gpu.wait(None)?;
@@ -63,7 +63,7 @@ impl Timer {
                 period,
             } => {
                 let mut encoder = gpu.device.create_command_encoder(&Default::default());
-                for (index, (pass, items)) in (0..).zip(passes) {
+                for (index, (pass, groups)) in (0..).zip(passes) {
                     let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
                         label: Some(&pass.label),
                         timestamp_writes: Some(wgpu::ComputePassTimestampWrites {
@@ -72,7 +72,7 @@ impl Timer {
                             end_of_pass_write_index: Some(2 * index + 1),
                         }),
                     });
-                    pass.encode(&mut compute, *items);
+                    pass.dispatch(&mut compute, *groups);
                 }
                 let count = 2 * passes.len() as u32;
                 encoder.resolve_query_set(queries, 0..count, resolved, 0);

@@ -5,14 +5,24 @@
 
 pub mod addressing;
 pub mod grid;
+pub mod layout;
+pub mod room;
 pub mod storage;
 
 pub use addressing::ADDRESSINGS;
 pub use grid::Grid;
+pub use room::Room;
 pub use storage::STORAGES;
 
-use crate::gpu::{BufferPlan, PassPlan, Variant};
-use crate::scene::{Neighbors, Scene};
+use glam::Vec3;
+
+use crate::gpu::{BufferPlan, DISPATCHES, PassPlan, Variant};
+use crate::scene::model::Axis;
+use crate::scene::{Dimensions, Scene};
+use addressing::RoomRule;
+
+/// Slices are cut across another axis when that needs so much less room.
+const WORTH_TURNING: f64 = 0.9;
 
 /// The buffers and passes of a scene's neighbor search. The passes read `next_position` and the other `next_` columns
 /// and leave the particles in `position` and so on, with the grid made for them.
@@ -20,36 +30,116 @@ pub struct Search {
     pub grid: Grid,
     pub buffers: Vec<BufferPlan>,
     pub passes: Vec<PassPlan>,
+    /// Flags of the variant that the addressing needs.
+    flags: Vec<&'static str>,
 }
 
-/// The search that a scene asks for; sets the roles `<addressing>` and `<storage>` of `variant`.
-pub fn plan(scene: &Scene, variant: &mut Variant) -> Search {
-    let Neighbors {
-        addressing,
-        storage,
-        slots,
-        slicing_axis,
-    } = scene.neighbors;
-    let grid = Grid::new(scene);
-    let addressing = addressing::row(addressing);
-    let storage = storage::row(storage);
+/// What a scene's first state needs, with the slicing axis that needs least where the scene leaves it open.
+pub fn first_grid(scene: &Scene) -> Grid {
+    let positions = &scene.particles.position;
+    let (grid, room) = axes(scene)
+        .map(|axis| measured(scene, axis, positions))
+        .min_by_key(|(_, room)| (room.voxels, room.rows))
+        .expect("a scene has axes");
+    roomy(scene, grid, room)
+}
+
+/// A grid with room for `needed`; with slices across another axis where the scene leaves it open and these positions
+/// need clearly less then.
+pub fn grown_grid(scene: &Scene, grid: Grid, needed: Room, positions: Option<&[Vec3]>) -> Grid {
+    let turned = positions.and_then(|positions| {
+        axes(scene)
+            .map(|axis| measured(scene, axis, positions))
+            .filter(|(_, room)| f64::from(room.voxels) < WORTH_TURNING * f64::from(needed.voxels))
+            .min_by_key(|(_, room)| room.voxels)
+    });
+    match turned {
+        Some((turned, room)) => roomy(scene, turned, room),
+        None => {
+            let has = grid.room();
+            // What was not too small keeps its size.
+            let pick = |needed: u32, has: u32, roomy: u32| if needed > has { roomy } else { has };
+            let more = roomy(scene, grid, needed).room();
+            grid.with_room(Room {
+                voxels: pick(needed.voxels, has.voxels, more.voxels),
+                rows: pick(needed.rows, has.rows, more.rows),
+                words: pick(needed.words, has.words, more.words),
+            })
+        }
+    }
+}
+
+/// Whether particles can need more room than the grid has.
+pub fn can_grow(scene: &Scene, grid: &Grid) -> bool {
+    match addressing::row(scene.neighbors.addressing).room {
+        RoomRule::Fixed(_) => false,
+        RoomRule::Followed(_) => !room::most(grid).is_within(grid.room()),
+    }
+}
+
+/// How much room a scene's grid needs for these local positions, without any margin.
+pub fn room_for(scene: &Scene, axis: Axis, positions: &[Vec3]) -> Room {
+    measured(scene, axis, positions).1
+}
+
+fn axes(scene: &Scene) -> impl Iterator<Item = Axis> {
+    let dimensions = scene.dimensions.count();
+    let given = scene.neighbors.slicing_axis.fixed();
+    [Axis::Y, Axis::X, Axis::Z]
+        .into_iter()
+        .take(dimensions)
+        .filter(move |&axis| given.is_none_or(|given| given == axis))
+}
+
+fn measured(scene: &Scene, axis: Axis, positions: &[Vec3]) -> (Grid, Room) {
+    let mut grid = Grid::new(scene, axis);
+    let mut room = match addressing::row(scene.neighbors.addressing).room {
+        RoomRule::Fixed(room) => room(&mut grid, scene),
+        RoomRule::Followed(room) => room(&mut positions.iter().filter_map(|&p| grid.voxel(p))),
+    };
+    if scene.dimensions == Dimensions::Two && room.rows > 0 {
+        room.rows = grid.slices();
+    }
+    (grid, room)
+}
+
+/// The grid with room for what is needed and the scene's margin.
+fn roomy(scene: &Scene, grid: Grid, needed: Room) -> Grid {
+    match addressing::row(scene.neighbors.addressing).room {
+        RoomRule::Fixed(_) => grid.with_room(needed),
+        RoomRule::Followed(_) => {
+            grid.with_room(needed.with_margin(scene.neighbors.margin, room::most(&grid)))
+        }
+    }
+}
+
+/// The search that a scene asks for, through this grid; sets the roles `<addressing>` and `<storage>` of `variant`.
+pub fn plan(scene: &Scene, grid: Grid, variant: &mut Variant) -> Search {
+    let addressing = addressing::row(scene.neighbors.addressing);
+    let storage = storage::row(scene.neighbors.storage);
     variant
         .role("addressing", addressing.query)
         .role("storage", storage.query)
-        .constant("SLOTS", slots)
-        .constant("REACH", 1)
-        .flag("slicing_axis_x", slicing_axis == crate::scene::model::Axis::X)
-        .flag("slicing_axis_z", slicing_axis == crate::scene::model::Axis::Z);
+        .constant("SLOTS", scene.neighbors.slots)
+        .constant("REACH", grid::voxel_reach(scene));
     let mut search = Search {
-        buffers: vec![BufferPlan::uniform(
-            "grid",
-            Grid::LAYOUT.size,
-            "place and size of the voxels",
-        )],
+        buffers: vec![
+            BufferPlan::uniform("grid", Grid::LAYOUT.size, "place and size of the voxels"),
+            BufferPlan::indirect(
+                "dispatch",
+                DISPATCHES,
+                16,
+                "workgroups of the passes, which the device decides",
+            ),
+        ],
         passes: Vec::new(),
+        flags: Vec::new(),
         grid,
     };
-    (addressing.plan)(&mut search);
-    (storage.plan)(&mut search, scene.capacity, slots);
+    (addressing.plan)(&mut search, scene);
+    for flag in &search.flags {
+        variant.flag(flag, true);
+    }
+    (storage.plan)(&mut search, scene.capacity, scene.neighbors.slots);
     search
 }

@@ -41,9 +41,9 @@ pub fn row(kind: Storage) -> &'static StorageRow {
 
 fn counting(search: &mut Search, capacity: u32, _slots: u32) {
     let particles = u64::from(capacity);
-    let items = u64::from(search.grid.capacity) + 1;
+    // The quarantine behind the voxels, and one entry more for the end.
+    let items = u64::from(search.grid.capacity) + 2;
     let blocks = items.div_ceil(u64::from(SCAN_THREADS * SCAN_ITEMS));
-    let threads = blocks as u32 * SCAN_THREADS;
     search.buffers.extend([
         BufferPlan::storage("voxel_count", items, 4, "particles that fell into each voxel"),
         BufferPlan::storage("voxel_start", items, 4, "first particle of each voxel"),
@@ -74,14 +74,14 @@ fn counting(search: &mut Search, capacity: u32, _slots: u32) {
         PassPlan::new(
             scan,
             "sum_blocks",
-            Items::Voxels(threads),
+            Items::VoxelBlocks,
             "prefix sum over voxels, first part",
         ),
-        PassPlan::new(scan, "scan_blocks", Items::Fixed(1), "prefix sum over blocks"),
+        PassPlan::new(scan, "scan_blocks", Items::Once, "prefix sum over blocks"),
         PassPlan::new(
             scan,
             "start_voxels",
-            Items::Voxels(threads),
+            Items::VoxelBlocks,
             "first particle of each voxel",
         ),
         PassPlan::new(
@@ -113,12 +113,7 @@ fn pool(search: &mut Search, _capacity: u32, slots: u32) {
     ]);
     let build = "storage/pool/build";
     search.passes.extend([
-        PassPlan::new(
-            build,
-            "clear_voxels",
-            Items::Voxels(search.grid.capacity),
-            "empties the pool",
-        ),
+        PassPlan::new(build, "clear_voxels", Items::Voxels, "empties the pool"),
         PassPlan::new(
             build,
             "insert_particles",

@@ -11,6 +11,8 @@ const LARGEST_OVERLAP: f64 = 0.2;
 pub struct Health {
     overflow: u64,
     overlap_told: bool,
+    quarantine_told: bool,
+    growths: u32,
 }
 
 impl Health {
@@ -26,6 +28,16 @@ impl Health {
             ));
         }
         self.overflow += frame.overflow;
+        if frame.quarantined > 0 && !self.quarantine_told {
+            self.quarantine_told = true;
+            warnings.push(format!(
+                "frame {}: {} particles are farther from the domain than the neighbor search follows, so they meet \
+                 nobody; to follow them, set neighbors.quarantine_distance higher",
+                frame.index,
+                count(frame.quarantined.into())
+            ));
+        }
+        self.growths += frame.growths;
         let overlap = frame.statistics.map_or(0.0, |statistics| statistics.max_overlap);
         if overlap > LARGEST_OVERLAP && !self.overlap_told {
             self.overlap_told = true;
@@ -47,6 +59,17 @@ impl Health {
             )
         })
     }
+
+    /// What is good to know when the run is over.
+    pub fn note(&self) -> Option<String> {
+        (self.growths > 0).then(|| {
+            format!(
+                "the grid's buffers were made larger {} times, and the steps concerned done again; \
+                 a higher neighbors.margin spares that",
+                self.growths
+            )
+        })
+    }
 }
 
 #[cfg(test)]
@@ -58,15 +81,8 @@ mod tests {
     fn each_sign_is_told_once() {
         let frame = Frame {
             index: 7,
-            time: 0.0,
-            steps: 0,
-            step_s: 1e-3,
             particles: 1,
-            overflow: 0,
-            pixels: None,
-            statistics: None,
-            columns: Vec::new(),
-            pass_ms: Vec::new(),
+            ..Default::default()
         };
         let with = |max_overlap, overflow| Frame {
             overflow,

@@ -226,6 +226,9 @@ impl Run {
         if let Some(summary) = self.health.summary() {
             self.progress.warn(&summary);
         }
+        if let Some(note) = self.health.note() {
+            self.progress.note(&note);
+        }
         if !self.pass_ms.is_empty() {
             let frames = f64::from(self.tally.frames_done.max(1));
             let times: Vec<_> = self

@@ -50,6 +50,7 @@ struct Line {
     step_s: f64,
     particles: u32,
     overflow_since_last_frame: u64,
+    quarantined: u32,
     #[serde(flatten)]
     measured: Option<Measured>,
     /// Sum over the frame's steps, by pass; only with `--timings`.
@@ -104,6 +105,7 @@ fn line(frame: &Frame) -> String {
         step_s: frame.step_s,
         particles: frame.particles,
         overflow_since_last_frame: frame.overflow,
+        quarantined: frame.quarantined,
         measured: frame.statistics.as_ref().map(Measured::from),
         pass_ms: by_pass(&frame.pass_ms),
     };
@@ -132,15 +134,11 @@ mod tests {
             steps: 300,
             step_s: 1e-3,
             particles: 10,
-            overflow: 0,
-            pixels: None,
-            statistics: None,
-            columns: Vec::new(),
-            pass_ms: Vec::new(),
+            ..Default::default()
         };
         assert_eq!(
             line(&frame),
-            r#"{"frame":3,"time_s":0.1,"steps":300,"step_s":0.001,"particles":10,"overflow_since_last_frame":0}"#
+            r#"{"frame":3,"time_s":0.1,"steps":300,"step_s":0.001,"particles":10,"overflow_since_last_frame":0,"quarantined":0}"#
         );
 
         frame.statistics = Some(Statistics {

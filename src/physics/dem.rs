@@ -7,6 +7,7 @@ use super::collider::Obstacles;
 use super::layout::{ClampWalls, Collider, Contact, ContactWalls, Measure};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::neighbors::Grid;
+use crate::neighbors::grid::voxel_reach;
 use crate::scene::column::{Column, Source};
 use crate::scene::model::{Dashpot, Integrator, Wall};
 use crate::scene::{self, Action, Dimensions, Scene};
@@ -113,7 +114,7 @@ pub fn plan(
     let clock = PassPlan::new(
         "physics/advance_clock",
         "advance_clock",
-        Items::Fixed(1),
+        Items::Once,
         "counts the step",
     );
     match scene.time.integrator {
@@ -226,9 +227,10 @@ pub fn measure(scene: &Scene, grid: &Grid) -> Measure {
     use std::f64::consts::PI;
     let radius = scene.grains.radius;
     let side = f64::from(grid.side);
+    let row = f64::from(2 * voxel_reach(scene) + 1);
     let (surface, block_volume) = match scene.dimensions {
-        Dimensions::Two => (2.0 * PI * radius, (3.0 * side).powi(2)),
-        Dimensions::Three => (4.0 * PI * radius * radius, (3.0 * side).powi(3)),
+        Dimensions::Two => (2.0 * PI * radius, (row * side).powi(2)),
+        Dimensions::Three => (4.0 * PI * radius * radius, (row * side).powi(3)),
     };
     let Vec3 { x, y, z } = scene.domain.min;
     Measure {

@@ -150,4 +150,5 @@ pub const SHARED: &[SharedLayout] = &[
     Occupancy::LAYOUT,
     Overflow::LAYOUT,
     crate::neighbors::Grid::LAYOUT,
+    crate::neighbors::layout::SearchState::LAYOUT,
 ];

@@ -2,12 +2,15 @@
 //!
 //! A plan is made without a GPU; [`crate::simulation::Simulation`] executes it to the letter.
 
+use std::collections::BTreeSet;
+
 use serde::Serialize;
 
 use crate::error::{Error, Result};
-use crate::gpu::compose::GROUP_SIZE;
+use crate::gpu::compose::{GROUP_SIZE, SCAN_ITEMS, SCAN_THREADS};
 use crate::gpu::device::Limits;
-use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
+use crate::gpu::pass::{INDEX_STRIDE, fold};
+use crate::gpu::{BufferPlan, DISPATCHES, Items, PassPlan, Variant};
 use crate::neighbors::{self, Grid};
 use crate::physics::collider::Obstacles;
 use crate::physics::dem;
@@ -100,6 +103,11 @@ pub struct Plan {
 
 impl Plan {
     pub fn new(scene: &Scene, limits: &Limits, wanted: &Wanted) -> Result<Self> {
+        Self::with_grid(scene, limits, wanted, neighbors::first_grid(scene))
+    }
+
+    /// The plan with this grid, whose buffers have room for what particles need by now.
+    pub fn with_grid(scene: &Scene, limits: &Limits, wanted: &Wanted, grid: Grid) -> Result<Self> {
         let mut variant = Variant::default();
         variant
             .flag("two_dimensional", scene.dimensions == Dimensions::Two)
@@ -113,7 +121,7 @@ impl Plan {
         }
 
         let obstacles = Obstacles::new(scene);
-        let search = neighbors::plan(scene, &mut variant);
+        let search = neighbors::plan(scene, grid, &mut variant);
         let solver = dem::plan(scene, &obstacles, &columns, wanted.statistics, &mut variant);
 
         let mut buffers = state_buffers(scene);
@@ -134,10 +142,12 @@ impl Plan {
         passes.extend(solver.after_search.iter().map(row(Phase::Step)));
         passes.extend(solver.measure.iter().map(row(Phase::Observe)));
         if wanted.statistics {
-            let (more_buffers, more_passes) = statistics(scene, &search.grid);
+            let (more_buffers, more_passes) = statistics(scene);
             buffers.extend(more_buffers);
             passes.extend(more_passes.iter().map(row(Phase::Observe)));
         }
+
+        buffers.extend(pass_indices(&passes));
 
         let mut textures = Vec::new();
         let mut draws = Vec::new();
@@ -174,7 +184,7 @@ impl Plan {
             time_step_limited_by: scene.time.limited_by.to_owned(),
             steps_per_frame: scene.time.steps_per_frame,
             frames: scene.time.frames,
-            domain_voxels: u64::from(search.grid.capacity),
+            domain_voxels: search.grid.domain_voxels(),
             picture_bytes,
             column_bytes: wanted.columns.iter().map(|c| column_bytes(scene, c)).sum(),
             buffers,
@@ -198,12 +208,32 @@ impl Plan {
         buffers + textures
     }
 
-    /// Threads that a pass runs with `particles` particles.
-    pub fn threads(items: Items, particles: u32) -> u32 {
+    /// Most items that a pass has with `particles` particles.
+    pub fn most_items(&self, items: Items, particles: u32) -> u32 {
         match items {
             Items::Particles => particles,
-            Items::Voxels(count) | Items::Fixed(count) => count,
+            Items::Voxels => self.grid.capacity,
+            Items::VoxelBlocks => scan_blocks(self.grid.capacity),
+            Items::Once => 1,
+            Items::Fixed(count) => count,
         }
+    }
+
+    /// The buffer `dispatch` for so many particles; where the search finds out how many voxels it has, they are none.
+    ///
+    /// Rows of x, y, z, and the groups that fit in one dimension.
+    pub fn dispatch(&self, particles: u32, limits: &Limits) -> [[u32; 4]; DISPATCHES as usize] {
+        let voxels = self.grid.capacity;
+        let groups = [
+            particles.div_ceil(GROUP_SIZE),
+            voxels.div_ceil(GROUP_SIZE),
+            scan_blocks(voxels),
+            1,
+        ];
+        groups.map(|groups| {
+            let (x, y) = fold(groups, limits.groups);
+            [x, y, 1, limits.groups]
+        })
     }
 
     pub fn in_phase(&self, phase: Phase) -> impl Iterator<Item = &PassPlan> {
@@ -211,6 +241,11 @@ impl Plan {
             .iter()
             .filter(move |row| row.phase == phase)
             .map(|row| &row.pass)
+    }
+
+    /// The numbers that passes run with, ascending; each has its place in `pass_index`.
+    pub fn indices(&self) -> Vec<u32> {
+        indices(&self.passes)
     }
 
     /// Refuses what the adapter cannot hold, with the number that would fit.
@@ -231,7 +266,7 @@ impl Plan {
                 } else {
                     format!(
                         "{} voxels would fit instead of {}: shrink the domain, enlarge the grains or the search radius, \
-                         use fewer slots, or choose another adapter",
+                         use fewer slots, choose a grid that takes less (--grid bitmap-counting) or another adapter",
                         fitting(self.grid.capacity),
                         self.grid.capacity
                     )
@@ -255,8 +290,34 @@ impl Plan {
     }
 }
 
+/// Workgroups of a prefix sum over so many voxels, the quarantine and the end.
+fn scan_blocks(voxels: u32) -> u32 {
+    (u64::from(voxels) + 2).div_ceil(u64::from(SCAN_THREADS * SCAN_ITEMS)) as u32
+}
+
+fn indices(passes: &[PassRow]) -> Vec<u32> {
+    let numbers: BTreeSet<u32> = passes.iter().filter_map(|row| row.pass.index).collect();
+    numbers.into_iter().collect()
+}
+
+/// The buffer of the numbers that passes run with, where some have one.
+fn pass_indices(passes: &[PassRow]) -> Option<BufferPlan> {
+    let bytes = indices(passes).len() * INDEX_STRIDE as usize;
+    let why = "the number of each pass that runs several times";
+    (bytes > 0).then(|| BufferPlan::uniform("pass_index", bytes, why))
+}
+
 /// Buffers that grow with the number of voxels; the others grow with the number of particles.
-const VOXEL_BUFFERS: &[&str] = &["voxel_count", "voxel_start", "index_pool", "block_sum"];
+const VOXEL_BUFFERS: &[&str] = &[
+    "voxel_count",
+    "voxel_start",
+    "index_pool",
+    "block_sum",
+    "row_bounds",
+    "row_record",
+    "voxel_mark",
+    "voxel_word",
+];
 
 /// Bytes of one frame of a column that is brought to the host.
 fn column_bytes(scene: &Scene, column: &Column) -> u64 {
@@ -305,7 +366,7 @@ fn state_buffers(scene: &Scene) -> Vec<BufferPlan> {
 }
 
 /// Buffers and passes of the figures over all grains and voxels.
-fn statistics(scene: &Scene, grid: &Grid) -> (Vec<BufferPlan>, Vec<PassPlan>) {
+fn statistics(scene: &Scene) -> (Vec<BufferPlan>, Vec<PassPlan>) {
     let groups = u64::from(scene.capacity.div_ceil(GROUP_SIZE));
     let sums = Sums::LAYOUT.size as u64;
     let buffers = vec![
@@ -327,13 +388,13 @@ fn statistics(scene: &Scene, grid: &Grid) -> (Vec<BufferPlan>, Vec<PassPlan>) {
         PassPlan::new(
             "physics/total_sums",
             "total_sums",
-            Items::Fixed(1),
+            Items::Once,
             "adds the workgroups' sums",
         ),
         PassPlan::new(
             "storage/measure_voxels",
             "measure_voxels",
-            Items::Voxels(grid.capacity),
+            Items::Voxels,
             "voxels by how many particles they hold",
         ),
     ];

@@ -102,6 +102,15 @@ impl Renderer {
         })
     }
 
+    /// Takes over buffers of the grid that were made anew.
+    pub fn rebind(&mut self, gpu: &Gpu, variant: &Variant, buffers: &Buffers) -> Result<()> {
+        if self.paint_pool.is_some() {
+            let shader = Shader::load("render/pool", &self.style.variant(&self.scene, variant))?;
+            self.paint_pool = Some(Pass::new(gpu, &shader, "paint_pool", buffers)?);
+        }
+        Ok(())
+    }
+
     /// Draws particles 0..`count` into `frame_pixels`. `time` is in seconds; `offsets` has each collider's present
     /// offset in metres.
     pub fn draw(

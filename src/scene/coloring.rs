@@ -1,7 +1,7 @@
 //! What colors the particles, and the range of values that the map spans.
 
 use super::frame::{Frame, Report};
-use super::model::{Axis, SceneFile};
+use super::model::{Axis, Cell, SceneFile};
 use super::text::{list, number, suggest};
 use super::{Coloring, Dimensions, Particles, color_maps, column};
 
@@ -95,16 +95,18 @@ fn default_range(column: &str, known: &Known) -> [f64; 2] {
         "pressure" if known.gravity > 0.0 => [0.0, file.grains.density * known.gravity * height],
         "pressure" => [0.0, 1e3],
         "slice" => {
-            let axis = match file.neighbors.slicing_axis {
-                Axis::X => 0,
-                Axis::Y => 1,
-                Axis::Z => 2,
+            let extent = frame.max - frame.min;
+            let along = match file.neighbors.slicing_axis.fixed() {
+                Some(Axis::X) => extent.x,
+                Some(Axis::Y) => extent.y,
+                Some(Axis::Z) => extent.z,
+                None => extent.max_element(),
             };
-            let voxel = 2.0 * file.grains.radius;
-            [
-                0.0,
-                ((frame.max - frame.min)[axis] / voxel - 1e-6).ceil().max(1.0),
-            ]
+            let voxel = match file.neighbors.cell {
+                Cell::Radius => 2.0 * file.grains.radius,
+                Cell::Half => file.grains.radius,
+            };
+            [0.0, (along / voxel - 1e-6).ceil().max(1.0)]
         }
         _ => [0.0, 1.0],
     }

@@ -30,7 +30,7 @@ mod time;
 mod validate;
 
 use glam::{DVec3, Vec3};
-use model::{Addressing, Axis, Dashpot, Integrator, Render, SceneFile, Storage, Wall};
+use model::{Addressing, Cell, Dashpot, Integrator, Render, SceneFile, SlicingAxis, Storage, Wall};
 
 use column::Column;
 
@@ -86,6 +86,13 @@ pub struct Domain {
     pub sides: [[Wall; 2]; 3],
     /// Of `clamp` walls.
     pub restitution: f32,
+}
+
+impl Domain {
+    /// Whether particles may leave it.
+    pub fn is_open(&self) -> bool {
+        self.sides.iter().flatten().any(|&side| side == Wall::Open)
+    }
 }
 
 /// Equal grains.
@@ -185,13 +192,19 @@ pub enum Action {
     Add(Particles),
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Neighbors {
     pub addressing: Addressing,
     pub storage: Storage,
-    pub slicing_axis: Axis,
+    pub slicing_axis: SlicingAxis,
+    pub cell: Cell,
     /// Indices a voxel of a pool can hold.
     pub slots: u32,
+    /// Room in the grid's buffers, as a multiple of what is needed when they are made.
+    pub margin: f64,
+    /// How far beyond open sides the search follows particles, metres; eight times the domain's longest side when
+    /// `None`.
+    pub quarantine_distance: Option<f64>,
 }
 
 impl From<&model::Neighbors> for Neighbors {
@@ -200,7 +213,10 @@ impl From<&model::Neighbors> for Neighbors {
             addressing: given.addressing,
             storage: given.storage,
             slicing_axis: given.slicing_axis,
+            cell: given.cell,
             slots: given.slots,
+            margin: given.margin,
+            quarantine_distance: given.quarantine_distance,
         }
     }
 }

@@ -446,11 +446,21 @@ pub struct Move {
 pub struct Neighbors {
     pub addressing: Addressing,
     pub storage: Storage,
-    /// The axis across which `sliced` cuts; y when left out, as in Harada 2007.
-    pub slicing_axis: Axis,
+    /// The axis across which slices are cut; y when left out, as in Harada 2007. With `auto` that with the fewest
+    /// voxels, chosen again when the grid has to grow.
+    pub slicing_axis: SlicingAxis,
+    /// Width of a voxel.
+    pub cell: Cell,
     /// Indices that a voxel of a `pool` can hold.
     #[schemars(range(min = 1, max = 64))]
     pub slots: u32,
+    /// Room in the grid's buffers, as a multiple of what the particles need when the buffers are made.
+    #[schemars(range(min = 1.0, max = 100.0))]
+    pub margin: f64,
+    /// How far beyond the domain's open sides the search follows particles, metres; eight times the domain's longest
+    /// side when left out. Particles beyond find no neighbors; they are counted.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub quarantine_distance: Option<f64>,
 }
 
 impl Default for Neighbors {
@@ -458,8 +468,11 @@ impl Default for Neighbors {
         Self {
             addressing: Addressing::default(),
             storage: Storage::default(),
-            slicing_axis: Axis::default(),
+            slicing_axis: SlicingAxis::default(),
+            cell: Cell::default(),
             slots: 4,
+            margin: 1.5,
+            quarantine_distance: None,
         }
     }
 }
@@ -474,6 +487,47 @@ pub enum Addressing {
     Sliced,
     /// The extent of each row in each slice.
     Rows,
+    /// One bit a voxel in the extent of each row; memory for those voxels that hold particles.
+    Bitmap,
+    /// A fixed table for an unbounded space (Teschner 2003); collisions cost time.
+    Hash,
+    /// The whole domain along a Z-order curve (Green 2012, Rojas 2013).
+    Morton,
+}
+
+/// How wide voxels are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Cell {
+    /// As the search's radius: a grain's diameter (the loose grid of Green 2012); 27 voxels around a particle in 3D.
+    #[default]
+    Radius,
+    /// Half of it: 125 voxels around a particle in 3D, with fewer candidates in them.
+    Half,
+}
+
+/// The axis across which slices are cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SlicingAxis {
+    X,
+    #[default]
+    Y,
+    Z,
+    /// The one that needs the fewest voxels.
+    Auto,
+}
+
+impl SlicingAxis {
+    /// `None` for `auto`.
+    pub fn fixed(self) -> Option<Axis> {
+        match self {
+            Self::X => Some(Axis::X),
+            Self::Y => Some(Axis::Y),
+            Self::Z => Some(Axis::Z),
+            Self::Auto => None,
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

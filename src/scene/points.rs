@@ -66,6 +66,7 @@ impl Scene {
                 "addressing": neighbors.addressing,
                 "storage": neighbors.storage,
                 "slicing_axis": neighbors.slicing_axis,
+                "cell": neighbors.cell,
                 "slots": neighbors.slots,
             },
         });
@@ -93,7 +94,11 @@ impl Scene {
             capacity: points.len() as u32,
             colliders: Vec::new(),
             schedule: Vec::new(),
-            neighbors,
+            // Nothing moves, so nothing has to be followed.
+            neighbors: Neighbors {
+                quarantine_distance: Some(0.0),
+                ..neighbors
+            },
             time: Time {
                 frames: 1,
                 fps: 1.0,

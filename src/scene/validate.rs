@@ -9,7 +9,7 @@ use super::bodies::{self, MOST_PARTICLES};
 use super::coloring::{self, Known};
 use super::contact::Law;
 use super::frame::{Frame, Report};
-use super::model::{Addressing, Axis, Render, SceneFile};
+use super::model::{Addressing, Render, SceneFile, SlicingAxis};
 use super::text::number;
 use super::{Action, Dimensions, Grains, Neighbors, Scene, obstacles, schedule, time};
 use crate::error::Problem;
@@ -38,7 +38,7 @@ pub(super) fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Prob
     let time = time::time(&file.time, frames, &contacts, mass, &mut report);
     let capacity = capacity(&file, particles.len(), &schedule.actions, &mut report);
     let gravity = vector(&file.gravity.0);
-    let neighbors = neighbors(&file, frame.dimensions, &mut report);
+    let neighbors = neighbors(&file, &frame, &mut report);
     let render = render(&file, &frame, &mut report);
     let known = Known {
         file: &file,
@@ -120,9 +120,9 @@ fn capacity(file: &SceneFile, at_start: usize, schedule: &[super::Scheduled], re
     all.min(MOST_PARTICLES) as u32
 }
 
-fn neighbors(file: &SceneFile, dimensions: Dimensions, report: &mut Report) -> Neighbors {
+fn neighbors(file: &SceneFile, frame: &Frame, report: &mut Report) -> Neighbors {
     let given = &file.neighbors;
-    if dimensions == Dimensions::Two && given.slicing_axis == Axis::Z {
+    if frame.dimensions == Dimensions::Two && given.slicing_axis == SlicingAxis::Z {
         report.problem(
             "neighbors.slicing_axis",
             "a 2D scene has no z axis",

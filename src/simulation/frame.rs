@@ -10,7 +10,7 @@ use crate::scene::column::{Column, Source};
 use crate::scene::{Dimensions, Scene};
 
 /// One moment of a run, on the host.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Frame {
     pub index: u32,
     /// Seconds of simulated time.
@@ -22,6 +22,10 @@ pub struct Frame {
     pub particles: u32,
     /// How often a particle found its voxel of a pool full, summed over all searches since the last frame.
     pub overflow: u64,
+    /// Particles farther away than the search follows; they find no neighbors.
+    pub quarantined: u32,
+    /// How often the grid's buffers were made larger since the last frame.
+    pub growths: u32,
     /// RGBA, 8 bits each, sRGB, rows from the top without padding.
     pub pixels: Option<Vec<u8>>,
     pub statistics: Option<Statistics>,
@@ -159,8 +163,7 @@ pub(super) fn columns(scene: &Scene, plan: &Plan, raw: &BTreeMap<&str, &[u8]>) -
             "velocity_y" => floats(&|s| f64::from(vector(&velocity, s).y)),
             "velocity_z" => floats(&|s| f64::from(vector(&velocity, s).z)),
             "slice" => {
-                let axis = scene.neighbors.slicing_axis;
-                let slice = |&s: &usize| plan.grid.slice_of(vector(&position, s), axis);
+                let slice = |&s: &usize| plan.grid.slice_of(vector(&position, s));
                 Values::Unsigned(slot_of.iter().map(slice).collect())
             }
             "contacts" => {

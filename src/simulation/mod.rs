@@ -1,7 +1,9 @@
 //! Executes a plan: steps, frames, and what comes back of them.
 
 pub mod frame;
+mod growth;
 mod neighbor_lists;
+mod passes;
 mod segments;
 
 use std::collections::BTreeMap;
@@ -12,27 +14,23 @@ pub use frame::{ColumnData, Frame, Statistics, Values};
 pub use neighbor_lists::NeighborLists;
 
 use crate::error::{Casualty, Error, Result};
+use crate::gpu::pass::INDEX_STRIDE;
 use crate::gpu::readback::Ring;
 use crate::gpu::timing::Timer;
-use crate::gpu::{Buffers, Gpu, Items, Pass, PassPlan, Shader};
+use crate::gpu::{Buffers, Gpu};
 use crate::physics::collider::offset_at;
 use crate::physics::dem;
 use crate::physics::layout::{Clock, Guard, Occupancy, Overflow, Parameters, Sums};
-use crate::plan::{Phase, Plan};
+use crate::plan::Plan;
 use crate::render::Renderer;
 use crate::scene::{self, Action, Dimensions, Particles, Scene};
+use passes::{Kernels, Passes, Step};
 use segments::{Segment, segments};
 
 /// Frames that may be on their way to the host while the device goes on.
 const FRAMES_UNDER_WAY: usize = 3;
 /// Steps recorded into one submission; enough to hide its cost, short enough for a display driver's watchdog.
-const STEPS_PER_SUBMISSION: u32 = 32;
-
-/// A pass and how many threads it runs.
-struct Step {
-    pass: Pass,
-    items: Items,
-}
+const STEPS_PER_SUBMISSION: u64 = 32;
 
 /// A scene on a device.
 pub struct Simulation {
@@ -40,9 +38,8 @@ pub struct Simulation {
     scene: Scene,
     plan: Plan,
     buffers: Buffers,
-    start: Vec<Step>,
-    step: Vec<Step>,
-    observe: Vec<Step>,
+    passes: Passes,
+    kernels: Kernels,
     renderer: Option<Renderer>,
     ring: Ring<Pending>,
     timer: Option<Timer>,
@@ -55,12 +52,20 @@ pub struct Simulation {
     contact: scene::Contact,
     /// Events that have happened.
     happened: usize,
+    /// Steps that were submitted since the run began.
+    submitted: u64,
+    /// How often the grid's buffers were made larger since the last frame was sent.
+    growths: u32,
+    /// Particles that the last search did not follow.
+    quarantined: u32,
 }
 
 /// A frame on its way to the host.
 struct Pending {
     index: u32,
     particles: u32,
+    quarantined: u32,
+    growths: u32,
     pass_ms: Vec<(String, f64)>,
     /// Name and bytes of each part of the staging buffer, in order.
     parts: Vec<(&'static str, u64)>,
@@ -70,34 +75,17 @@ impl Simulation {
     pub fn new(gpu: Gpu, scene: &Scene, plan: &Plan) -> Result<Self> {
         let mut buffers = Buffers::default();
         for buffer in &plan.buffers {
-            buffers.create(&gpu, &buffer.name, buffer.bytes, buffer.usage);
+            buffers.make(&gpu, buffer)?;
         }
         let renderer = match plan.wanted.view {
             Some(view) => Some(Renderer::new(&gpu, scene, &plan.variant, &mut buffers, view)?),
             None => None,
         };
-        let mut shaders = BTreeMap::new();
-        let mut passes = |phase| -> Result<Vec<Step>> {
-            plan.in_phase(phase)
-                .map(|planned: &PassPlan| {
-                    if !shaders.contains_key(&planned.shader) {
-                        shaders.insert(
-                            planned.shader.clone(),
-                            Shader::load(&planned.shader, &plan.variant)?,
-                        );
-                    }
-                    let pass = Pass::new(&gpu, &shaders[&planned.shader], &planned.entry, &buffers)?;
-                    Ok(Step {
-                        pass,
-                        items: planned.items,
-                    })
-                })
-                .collect()
-        };
+        let mut kernels = Kernels::default();
+        let passes = Passes::new(&gpu, plan, &buffers, &mut kernels)?;
         let simulation = Self {
-            start: passes(Phase::Start)?,
-            step: passes(Phase::Step)?,
-            observe: passes(Phase::Observe)?,
+            passes,
+            kernels,
             buffers,
             renderer,
             ring: Ring::new(FRAMES_UNDER_WAY),
@@ -108,6 +96,9 @@ impl Simulation {
             gravity: scene.gravity,
             contact: scene.grains.contact,
             happened: 0,
+            submitted: 0,
+            growths: 0,
+            quarantined: 0,
             scene: scene.clone(),
             plan: plan.clone(),
             gpu,
@@ -127,7 +118,7 @@ impl Simulation {
 
     /// Times the passes of each frame's last step, and its own; this makes the host wait for every frame.
     pub fn set_timings(&mut self, on: bool) {
-        let passes = (self.step.len() + self.observe.len()) as u32;
+        let passes = (self.passes.step.len() + self.passes.observe.len()) as u32;
         self.timer = if on { Timer::new(&self.gpu, passes) } else { None };
     }
 
@@ -142,6 +133,10 @@ impl Simulation {
         };
         buffers.write(gpu, "guard", 0, &[guard])?;
         buffers.write(gpu, "grid", 0, &[self.plan.grid])?;
+        for (place, index) in self.plan.indices().into_iter().enumerate() {
+            let first = place * INDEX_STRIDE as usize / size_of::<u32>();
+            buffers.write(gpu, "pass_index", first, &[index])?;
+        }
         if buffers.contains("contact_walls") {
             buffers.write(gpu, "contact_walls", 0, &[dem::contact_walls(scene)])?;
         }
@@ -157,16 +152,6 @@ impl Simulation {
         if buffers.contains("distance_field") {
             buffers.write(gpu, "distance_field", 0, &self.plan.obstacles.field)?;
         }
-        // Extents of nothing: lowest above highest.
-        if buffers.contains("slice_bounds") {
-            let slices =
-                [[i32::MAX, i32::MAX, -i32::MAX, -i32::MAX]].repeat(self.plan.grid.slices() as usize);
-            buffers.write(gpu, "slice_bounds", 0, &slices)?;
-        }
-        if buffers.contains("row_bounds") {
-            let rows = [[i32::MAX, -i32::MAX]].repeat(self.plan.grid.rows() as usize);
-            buffers.write(gpu, "row_bounds", 0, &rows)?;
-        }
         Ok(())
     }
 
@@ -179,6 +164,8 @@ impl Simulation {
             ..Default::default()
         };
         self.buffers.write(&self.gpu, "parameters", 0, &[parameters])?;
+        let dispatch = self.plan.dispatch(self.count, &self.gpu.limits);
+        self.buffers.write(&self.gpu, "dispatch", 0, &dispatch)?;
         let contact = dem::contact_values(&self.scene, &self.contact);
         self.buffers.write(&self.gpu, "contact", 0, &[contact])
     }
@@ -285,9 +272,17 @@ impl Simulation {
         self.count += particles.len() as u32;
         // With a time step of zero, the passes behind the search find accelerations and leave velocities alone.
         self.write_parameters(0.0)?;
+        self.gpu.queue.submit([encoder.finish()]);
+        self.search()?;
+        self.settle()
+    }
+
+    /// Searches neighbors of what stands in `next_position`, and does what a step does after its search.
+    fn search(&self) -> Result<()> {
+        let mut encoder = self.encoder("search");
         let mut compute = encoder.begin_compute_pass(&Default::default());
-        for step in &self.start {
-            self.encode(step, &mut compute);
+        for step in &self.passes.start {
+            self.encode(step, &mut compute)?;
         }
         drop(compute);
         self.gpu.queue.submit([encoder.finish()]);
@@ -300,22 +295,31 @@ impl Simulation {
             return Ok(());
         }
         let timed = u32::from(ends_frame && self.timer.is_some());
-        let mut left = steps - timed;
+        self.submit_steps(u64::from(steps - timed))?;
+        self.settle()?;
+        if timed == 1 {
+            self.submitted += 1;
+            self.pass_ms = self.time(&self.passes.step)?;
+            self.settle()?;
+        }
+        Ok(())
+    }
+
+    fn submit_steps(&mut self, steps: u64) -> Result<()> {
+        self.submitted += steps;
+        let mut left = steps;
         while left > 0 {
             let now = left.min(STEPS_PER_SUBMISSION);
             left -= now;
             let mut encoder = self.encoder("steps");
             let mut compute = encoder.begin_compute_pass(&Default::default());
             for _ in 0..now {
-                for step in &self.step {
-                    self.encode(step, &mut compute);
+                for step in &self.passes.step {
+                    self.encode(step, &mut compute)?;
                 }
             }
             drop(compute);
             self.gpu.queue.submit([encoder.finish()]);
-        }
-        if timed == 1 {
-            self.pass_ms = self.time(&self.step)?;
         }
         Ok(())
     }
@@ -325,12 +329,11 @@ impl Simulation {
         let Some(timer) = &self.timer else {
             return Ok(Vec::new());
         };
-        let with_items = |step| -> (&Pass, u32) {
-            let Step { pass, items }: &Step = step;
-            (pass, Plan::threads(*items, self.count))
-        };
-        let passes: Vec<_> = steps.iter().map(with_items).collect();
-        timer.run(&self.gpu, &passes)
+        let passes: Result<Vec<_>> = steps
+            .iter()
+            .map(|step| Ok((&step.pass, step.groups(&self.buffers)?)))
+            .collect();
+        timer.run(&self.gpu, &passes?)
     }
 
     fn encoder(&self, label: &str) -> wgpu::CommandEncoder {
@@ -338,8 +341,9 @@ impl Simulation {
         self.gpu.device.create_command_encoder(&descriptor)
     }
 
-    fn encode(&self, step: &Step, compute: &mut wgpu::ComputePass<'_>) {
-        step.pass.encode(compute, Plan::threads(step.items, self.count));
+    fn encode(&self, step: &Step, compute: &mut wgpu::ComputePass<'_>) -> Result<()> {
+        step.pass.dispatch(compute, step.groups(&self.buffers)?);
+        Ok(())
     }
 
     /// Observes, draws, and copies what is wanted into the staging ring.
@@ -353,11 +357,11 @@ impl Simulation {
             if self.timer.is_some() {
                 let cleared = std::mem::replace(&mut encoder, self.encoder("frame"));
                 self.gpu.queue.submit([cleared.finish()]);
-                pass_ms.extend(self.time(&self.observe)?);
+                pass_ms.extend(self.time(&self.passes.observe)?);
             } else {
                 let mut compute = encoder.begin_compute_pass(&Default::default());
-                for step in &self.observe {
-                    self.encode(step, &mut compute);
+                for step in &self.passes.observe {
+                    self.encode(step, &mut compute)?;
                 }
             }
         }
@@ -377,6 +381,8 @@ impl Simulation {
         let pending = Pending {
             index,
             particles: self.count,
+            quarantined: self.quarantined,
+            growths: std::mem::take(&mut self.growths),
             pass_ms,
             parts: parts.clone(),
         };
@@ -465,6 +471,8 @@ impl Simulation {
             step_s: self.scene.time.step,
             particles: pending.particles,
             overflow: u64::from(overflow.since_last_frame),
+            quarantined: pending.quarantined,
+            growths: pending.growths,
             pixels: by_name.get("frame_pixels").map(|pixels| pixels.to_vec()),
             statistics,
             columns: frame::columns(&self.scene, &self.plan, &by_name),

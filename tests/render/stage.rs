@@ -6,7 +6,7 @@ use sliceflow::gpu::buffers::Usage;
 use sliceflow::gpu::{AdapterChoice, Buffers, Gpu, Variant, readback};
 use sliceflow::render::{Caption, Overlay, Renderer};
 use sliceflow::scene::model::{
-    Addressing, Axis, Dashpot, Integrator, Render, SceneFile, Splat, Storage, View, Wall,
+    Addressing, Dashpot, Integrator, Render, SceneFile, Splat, Storage, View, Wall,
 };
 use sliceflow::scene::{
     Coloring, Contact, Dimensions, Domain, Grains, Neighbors, Particles, Scene, Time, column,
@@ -58,8 +58,7 @@ pub fn scene(dimensions: Dimensions, min: Vec3, max: Vec3, radius: f64, size: [u
         neighbors: Neighbors {
             addressing: Addressing::Uniform,
             storage: Storage::Pool,
-            slicing_axis: Axis::Y,
-            slots: 4,
+            ..Default::default()
         },
         time: Time {
             frames: 1,

@@ -46,7 +46,11 @@ fn measure_grains(thread: Thread) {
         var around = 0u;
         for (var k = 0u; k < RANGES; k++) {
             let range = candidate_range(home, k);
-            around += range.y - range.x;
+            for (var slot = range.x; slot < range.y; slot++) {
+                // Some searches offer candidates from elsewhere.
+                let away = abs(voxel_of(unpack(position[candidate(slot)])) - home);
+                around += u32(all(away <= Coordinate(i32(REACH))));
+            }
         }
         density[i] = f32(around) * measure.mass / measure.block_volume;
 #end

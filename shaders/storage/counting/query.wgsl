@@ -1,7 +1,7 @@
 // Storage `counting`: particles stand in voxel order, so a span of voxels is one range of particles (Green 2012).
 #import <addressing>
 
-// First particle of each voxel, and one more: the particle count.
+// First particle of each voxel and of the quarantine behind them, and one more: the particle count.
 var<storage, read> voxel_start: array<u32>;
 
 const RANGES: u32 = SPANS;

@@ -10,9 +10,9 @@ var<storage, read_write> voxel_count: array<u32>;
 var<storage, read_write> voxel_start: array<u32>;
 var<storage, read_write> block_sum: array<u32>;
 
-// One entry more than voxels: its count is zero, and its start is the particle count.
+// Behind the voxels stands the quarantine, and one entry more: its count is zero, and its start is the particle count.
 fn scan_items() -> u32 {
-    return voxel_total() + 1u;
+    return voxel_total() + 2u;
 }
 
 @compute @workgroup_size(SCAN_THREADS)

@@ -38,7 +38,11 @@ fn insert_particles(thread: Thread) {
         return;
     }
     place(i, i);
-    let voxel = address(voxel_of(unpack(next_position[i])));
+    let at = voxel_of(unpack(next_position[i]));
+    if is_quarantined(at) {
+        return;
+    }
+    let voxel = address(at);
     atomicAdd(&voxel_count[voxel], 1u);
     var carried = i;
     for (var slot = voxel * SLOTS; slot < (voxel + 1u) * SLOTS && carried != NOBODY; slot++) {

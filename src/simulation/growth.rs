@@ -1,0 +1,123 @@
+//! Grids that follow their particles: when a search finds too little room, nothing runs behind it until the host has
+//! made more; then the search is done again, and the steps that are missing. Nothing is lost and no bit differs.
+
+use glam::Vec3;
+
+use super::Simulation;
+use super::passes::Passes;
+use crate::error::{Error, Result};
+use crate::gpu::readback;
+use crate::neighbors::layout::SearchState;
+use crate::neighbors::{self, Grid, Room};
+use crate::physics::layout::Clock;
+use crate::plan::Plan;
+use crate::scene::Dimensions;
+
+impl Simulation {
+    /// Looks whether the last search had room, and makes room until every submitted step is done.
+    pub(super) fn settle(&mut self) -> Result<()> {
+        let follows = self.buffers.contains("search_state") && self.scene.domain.is_open();
+        while follows || neighbors::can_grow(&self.scene, &self.plan.grid) {
+            let state = self.search_state()?;
+            self.quarantined = state.quarantined;
+            if state.halted == 0 {
+                break;
+            }
+            self.grow(Room {
+                voxels: state.voxels,
+                rows: state.rows,
+                words: state.words,
+            })?;
+            // The particles have moved already; what halted is the search behind that.
+            self.search()?;
+            let clock = self.buffers.get("clock", "(host)")?;
+            let clock: Vec<Clock> = readback::read(&self.gpu, clock, 1)?;
+            let missing = self.submitted - u64::from(clock[0].step);
+            self.submitted -= missing;
+            self.submit_steps(missing)?;
+        }
+        Ok(())
+    }
+
+    fn search_state(&self) -> Result<SearchState> {
+        let buffer = self.buffers.get("search_state", "(host)")?;
+        let state: Vec<SearchState> = readback::read(&self.gpu, buffer, 1)?;
+        Ok(state[0])
+    }
+
+    /// Makes the grid's buffers as large as needed, with the scene's margin where the adapter allows it.
+    fn grow(&mut self, needed: Room) -> Result<()> {
+        let positions = match self.scene.neighbors.slicing_axis.fixed() {
+            Some(_) => None,
+            None => Some(self.read_next_positions()?),
+        };
+        let grid = neighbors::grown_grid(&self.scene, self.plan.grid, needed, positions.as_deref());
+        let plan = |grid| Plan::with_grid(&self.scene, &self.gpu.limits, &self.plan.wanted, grid);
+        let exact = || {
+            let has = self.plan.grid.room();
+            plan(self.plan.grid.with_room(Room {
+                voxels: needed.voxels.max(has.voxels),
+                rows: needed.rows.max(has.rows),
+                words: needed.words.max(has.words),
+            }))
+        };
+        let plan = plan(grid).or_else(|_| exact()).map_err(|error| match error {
+            Error::Limit { what, mend } => Error::Limit {
+                what: format!("the grid must grow after {} steps: {what}", self.submitted),
+                mend,
+            },
+            other => other,
+        })?;
+        self.growths += 1;
+        self.rebuild(plan)
+    }
+
+    /// Gives the search exactly the room that its last one needed, for comparing policies; normally buffers only grow.
+    pub fn resize_exactly(&mut self) -> Result<()> {
+        let state = self.search_state()?;
+        let grid: Grid = self.plan.grid.with_room(Room {
+            voxels: state.voxels,
+            rows: state.rows.max(self.plan.grid.row_capacity.min(1)),
+            words: state.words,
+        });
+        let plan = Plan::with_grid(&self.scene, &self.gpu.limits, &self.plan.wanted, grid)?;
+        self.rebuild(plan)
+    }
+
+    /// Takes over a plan that differs in its grid only. What the search made is gone; particles stay.
+    fn rebuild(&mut self, plan: Plan) -> Result<()> {
+        let grid_turned = plan.grid.axis != self.plan.grid.axis;
+        for buffer in &plan.buffers {
+            let before = self.plan.buffers.iter().find(|b| b.name == buffer.name);
+            if grid_turned && !buffer.fill.is_empty() || before.is_none_or(|b| b.bytes != buffer.bytes) {
+                self.buffers.make(&self.gpu, buffer)?;
+            }
+        }
+        self.passes = Passes::new(&self.gpu, &plan, &self.buffers, &mut self.kernels)?;
+        if let Some(renderer) = &mut self.renderer {
+            renderer.rebind(&self.gpu, &plan.variant, &self.buffers)?;
+        }
+        self.plan = plan;
+        self.buffers.write(&self.gpu, "grid", 0, &[self.plan.grid])?;
+        self.buffers
+            .write(&self.gpu, "search_state", 0, &[SearchState::default()])?;
+        let dispatch = self.plan.dispatch(self.count, &self.gpu.limits);
+        self.buffers.write(&self.gpu, "dispatch", 0, &dispatch)
+    }
+
+    /// Where the last step left the particles.
+    fn read_next_positions(&self) -> Result<Vec<Vec3>> {
+        let buffer = self.buffers.get("next_position", "(host)")?;
+        let count = self.count as usize;
+        Ok(match self.scene.dimensions {
+            Dimensions::Two => readback::read::<[f32; 2]>(&self.gpu, buffer, count)?
+                .into_iter()
+                .map(|[x, y]| Vec3::new(x, y, 0.0))
+                .collect(),
+            Dimensions::Three => readback::read::<[f32; 4]>(&self.gpu, buffer, count)?
+                .into_iter()
+                .map(|[x, y, z, _]| Vec3::new(x, y, z))
+                .collect(),
+        })
+    }
+}

@@ -1,0 +1,64 @@
+//! A plan's passes on a device.
+
+use std::collections::BTreeMap;
+
+use crate::error::Result;
+use crate::gpu::{Buffers, Gpu, Groups, Items, Kernel, Pass, PassPlan, Shader};
+use crate::plan::{Phase, Plan};
+
+/// Compiled entry points by shader and name; they outlive the buffers that passes bind.
+pub type Kernels = BTreeMap<(String, String), Kernel>;
+
+/// A pass and how many threads it runs.
+pub struct Step {
+    pub pass: Pass,
+    pub items: Items,
+}
+
+impl Step {
+    pub fn groups<'a>(&self, buffers: &'a Buffers) -> Result<Groups<'a>> {
+        Ok(match (self.items, self.items.dispatch_entry()) {
+            (_, Some(entry)) => Groups::From(buffers.get("dispatch", "(host)")?, 16 * entry),
+            (Items::Fixed(count), _) => Groups::For(count),
+            _ => unreachable!("only a fixed number is not in `dispatch`"),
+        })
+    }
+}
+
+/// The passes of a plan, by when they run.
+pub struct Passes {
+    pub start: Vec<Step>,
+    pub step: Vec<Step>,
+    pub observe: Vec<Step>,
+}
+
+impl Passes {
+    pub fn new(gpu: &Gpu, plan: &Plan, buffers: &Buffers, kernels: &mut Kernels) -> Result<Self> {
+        let indices = plan.indices();
+        let mut made = |phase| -> Result<Vec<Step>> {
+            let step = |planned: &PassPlan| {
+                let key = (planned.shader.clone(), planned.entry.clone());
+                if !kernels.contains_key(&key) {
+                    let shader = Shader::load(&planned.shader, &plan.variant)?;
+                    kernels.insert(key.clone(), Kernel::new(gpu, &shader, &planned.entry)?);
+                }
+                let kernel = &kernels[&key];
+                let place = planned.index.and_then(|index| indices.binary_search(&index).ok());
+                let pass = match place {
+                    Some(place) => kernel.numbered_pass(gpu, buffers, place)?,
+                    None => kernel.pass(gpu, buffers)?,
+                };
+                Ok(Step {
+                    pass,
+                    items: planned.items,
+                })
+            };
+            plan.in_phase(phase).map(step).collect()
+        };
+        Ok(Self {
+            start: made(Phase::Start)?,
+            step: made(Phase::Step)?,
+            observe: made(Phase::Observe)?,
+        })
+    }
+}

@@ -1,0 +1,221 @@
+//! Grids that follow their particles beyond the domain and grow on the device.
+
+mod common;
+
+use glam::Vec3;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use sliceflow::neighbors::{STORAGES, first_grid};
+use sliceflow::plan::Wanted;
+use sliceflow::scene::model::SlicingAxis;
+use sliceflow::scene::{Particles, Scene};
+use sliceflow::simulation::{Frame, Values};
+
+const FOLLOWING: [&str; 3] = ["sliced", "rows", "bitmap"];
+
+fn scene(dimensions: usize, choices: &[&str], position: Vec<Vec3>, velocity: Vec<Vec3>) -> Scene {
+    let open = [
+        "domain.walls=open",
+        "domain.sides={}",
+        "colliders=[]",
+        "gravity=[0,0,0]",
+    ];
+    let two = [
+        "domain.walls=open",
+        "domain.sides={}",
+        "colliders=[]",
+        "gravity=[0,0]",
+    ];
+    let open = if dimensions == 2 { two } else { open };
+    let all: Vec<&str> = open.iter().chain(choices).copied().collect();
+    let mut scene = common::scene(dimensions, &all);
+    scene.capacity = position.len() as u32;
+    scene.particles = Particles { position, velocity };
+    scene
+}
+
+/// A ball of grains that flies apart.
+fn burst(dimensions: usize, count: usize) -> (Vec<Vec3>, Vec<Vec3>) {
+    let base = common::scene(dimensions, &[]);
+    let reach = 2.0 * base.grains.radius as f32;
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    let mut unit = || {
+        let z = if dimensions == 2 { 0.5 } else { rng.random() };
+        Vec3::new(rng.random(), rng.random(), z) - 0.5
+    };
+    let position: Vec<Vec3> = (0..count).map(|_| unit() * 8.0 * reach).collect();
+    let velocity = (0..count).map(|_| unit() * 60.0).collect();
+    (position, velocity)
+}
+
+fn frames(scene: &Scene, last: u32) -> Vec<Frame> {
+    let columns = sliceflow::output::columns_named(["position"]).expect("a column");
+    let wanted = Wanted {
+        statistics: true,
+        columns,
+        ..Default::default()
+    };
+    let mut simulation = common::simulate(scene, &wanted);
+    let mut frames = Vec::new();
+    for _ in 0..=last {
+        frames.extend(simulation.next_frame().expect("a frame"));
+    }
+    while let Some(frame) = simulation.finish_frame().expect("a frame") {
+        frames.push(frame);
+    }
+    frames
+}
+
+fn positions(frame: &Frame) -> &[f64] {
+    match &frame.columns[0].values {
+        Values::Double { values, .. } => values,
+        other => panic!("positions are doubles, not {other:?}"),
+    }
+}
+
+#[test]
+fn a_grid_that_grows_loses_nothing_and_changes_no_bit() {
+    for dimensions in [2, 3] {
+        let (position, velocity) = burst(dimensions, 1200);
+        for addressing in FOLLOWING {
+            // How voxels keep particles is told apart in 3D.
+            for storage in &STORAGES[..if dimensions == 2 { 1 } else { STORAGES.len() }] {
+                let choices = |margin: &str| {
+                    [
+                        format!("neighbors.addressing={addressing}"),
+                        format!("neighbors.storage={}", storage.name),
+                        "neighbors.slots=16".into(),
+                        format!("neighbors.margin={margin}"),
+                    ]
+                };
+                let run = |margin: &str| {
+                    let choices = choices(margin);
+                    let choices: Vec<&str> = choices.iter().map(String::as_str).collect();
+                    frames(
+                        &scene(dimensions, &choices, position.clone(), velocity.clone()),
+                        3,
+                    )
+                };
+                let (tight, roomy) = (run("1"), run("100"));
+                let label = format!("{dimensions}D {addressing} × {}", storage.name);
+                let grown: u32 = tight.iter().map(|frame| frame.growths).sum();
+                assert!(grown > 0, "{label}: nothing had to grow");
+                for (a, b) in tight.iter().zip(&roomy) {
+                    assert_eq!(a.steps, b.steps, "{label}");
+                    assert_eq!(positions(a), positions(b), "{label}, frame {}", a.index);
+                    assert_eq!(a.statistics, b.statistics, "{label}, frame {}", a.index);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_too_far_is_counted_and_does_not_take_memory() {
+    let (mut position, mut velocity) = burst(3, 500);
+    velocity.fill(Vec3::ZERO);
+    let side = common::scene(3, &[]).domain.max.x * 2.0;
+    position.push(Vec3::new(1e3 * side, 0.0, 0.0));
+    position.push(Vec3::new(0.0, -1e3 * side, 0.0));
+    velocity.resize(position.len(), Vec3::ZERO);
+    for addressing in ["sliced", "rows", "bitmap", "hash"] {
+        for storage in STORAGES {
+            let choices = [
+                format!("neighbors.addressing={addressing}"),
+                format!("neighbors.storage={}", storage.name),
+            ];
+            let choices: Vec<&str> = choices.iter().map(String::as_str).collect();
+            let scene = scene(3, &choices, position.clone(), velocity.clone());
+            let frames = frames(&scene, 1);
+            let label = format!("{addressing} × {}", storage.name);
+            assert_eq!(frames[0].quarantined, 2, "{label}");
+            assert_eq!(frames[1].quarantined, 2, "{label}");
+            assert_eq!(frames[0].growths, 0, "{label}");
+        }
+    }
+}
+
+#[test]
+fn one_stray_particle_costs_memory_by_its_distance_in_its_slice_only() {
+    let (mut position, velocity) = burst(3, 500);
+    let base = common::scene(3, &[]);
+    let stray = Vec3::new(3.0 * base.domain.max.x, 0.0, 0.0);
+    let voxels = |addressing: &str, position: &[Vec3]| {
+        let choice = format!("neighbors.addressing={addressing}");
+        let scene = scene(
+            3,
+            &[&choice, "neighbors.margin=1"],
+            position.to_vec(),
+            vec![Vec3::ZERO; position.len()],
+        );
+        sliceflow::neighbors::room_for(&scene, sliceflow::scene::model::Axis::Y, position)
+    };
+    let before = FOLLOWING.map(|addressing| voxels(addressing, &position));
+    position.push(stray);
+    assert_eq!(position.len(), velocity.len() + 1);
+    let after = FOLLOWING.map(|addressing| voxels(addressing, &position));
+    let more = |k: usize| after[k].voxels - before[k].voxels;
+    let distance = (stray.x / (2.0 * base.grains.radius as f32)) as u32;
+    assert!(
+        more(0) > distance,
+        "a slice gets as wide as the distance: {}",
+        more(0)
+    );
+    assert!(
+        more(1) <= distance + 8,
+        "a row gets as long as the distance: {}",
+        more(1)
+    );
+    assert_eq!(more(2), 1, "the bitmap has one voxel more");
+    assert!(
+        after[2].words - before[2].words <= distance / 32 + 1,
+        "and a bit for each voxel between"
+    );
+}
+
+#[test]
+fn auto_slices_across_the_axis_with_the_fewest_voxels_and_turns_when_it_grows() {
+    // A plate across x needs one slice when cut across x. It flies apart along x and z.
+    let base = common::scene(3, &[]);
+    let reach = 2.0 * base.grains.radius as f32;
+    let mut position = Vec::new();
+    let mut velocity = Vec::new();
+    let mut rng = ChaCha8Rng::seed_from_u64(2);
+    for i in 0..30 {
+        for j in 0..30 {
+            let at = Vec3::new((i + j) as f32 * 0.6, i as f32 - 15.0, j as f32 - 15.0);
+            position.push(at * reach);
+            velocity.push(40.0 * Vec3::new(0.0, 0.0, rng.random::<f32>() - 0.5));
+        }
+    }
+    for axis in ["x", "y", "z", "auto"] {
+        let choice = format!("neighbors.slicing_axis={axis}");
+        let scene = scene(
+            3,
+            &[&choice, "neighbors.margin=1"],
+            position.clone(),
+            velocity.clone(),
+        );
+        let grid = first_grid(&scene);
+        if axis == "auto" {
+            assert_eq!(scene.neighbors.slicing_axis, SlicingAxis::Auto);
+            let fixed = ["x", "y", "z"].map(|axis| {
+                let choice = format!("neighbors.slicing_axis={axis}");
+                first_grid(&self::scene(
+                    3,
+                    &[&choice, "neighbors.margin=1"],
+                    position.clone(),
+                    velocity.clone(),
+                ))
+            });
+            let least = fixed.iter().min_by_key(|grid| grid.capacity).unwrap();
+            assert_eq!(grid.capacity, least.capacity);
+            assert_eq!(grid.axis, least.axis);
+        }
+        let frames = frames(&scene, 3);
+        assert!(
+            frames.iter().map(|frame| frame.growths).sum::<u32>() > 0,
+            "{axis}"
+        );
+    }
+}
