@@ -139,6 +139,73 @@ fn voxels_of_half_the_radius() {
 }
 
 #[test]
+fn clusters_in_regions_of_their_own() {
+    for dimensions in [2, 3] {
+        let (min, max, reach) = corners(dimensions);
+        let flat = if dimensions == 2 {
+            Vec3::new(1.0, 1.0, 0.0)
+        } else {
+            Vec3::ONE
+        };
+        let mut rng = ChaCha8Rng::seed_from_u64(12);
+        // Clusters in all corners, some so near to each other that they stay together.
+        let points: Vec<Vec3> = (0..900)
+            .map(|i| {
+                let along = |k: usize| [0.0, 0.05, 1.0][k % 3];
+                let cluster = Vec3::new(along(i), along(i / 3), along(i / 9));
+                let unit = Vec3::new(rng.random(), rng.random(), rng.random());
+                (min + (max - min) * cluster + 3.0 * reach * unit) * flat
+            })
+            .collect();
+        for storage in STORAGES {
+            for axis in if dimensions == 2 {
+                &["x", "y"][..]
+            } else {
+                &["x", "y", "z"]
+            } {
+                let with = |regions| {
+                    let regions = format!("neighbors.regions={regions}");
+                    scene_with(
+                        dimensions,
+                        ("sliced", storage.name),
+                        axis,
+                        64,
+                        &points,
+                        &[&regions, "neighbors.margin=1"],
+                    )
+                };
+                let (apart, together) = (with(true), with(false));
+                check_scene(
+                    &format!("regions, {dimensions}D, {}, axis {axis}", storage.name),
+                    &apart,
+                );
+                let voxels = |scene: &Scene| {
+                    let wanted = Wanted {
+                        statistics: true,
+                        ..Default::default()
+                    };
+                    let mut simulation = common::simulate(scene, &wanted);
+                    simulation.next_frame().unwrap();
+                    let frame = simulation.finish_frame().unwrap().unwrap();
+                    assert_eq!(frame.growths, 0, "the host counted too little");
+                    frame.statistics.unwrap().voxels_allocated
+                };
+                let (apart_voxels, together_voxels) = (voxels(&apart), voxels(&together));
+                assert!(
+                    apart_voxels < together_voxels,
+                    "{dimensions}D, axis {axis}: {apart_voxels} voxels in regions, {together_voxels} without"
+                );
+                let counted = sliceflow::neighbors::first_grid(&apart).capacity;
+                assert!(
+                    counted >= apart_voxels && counted <= apart_voxels.max(1024),
+                    "{counted} {apart_voxels}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn clusters_sheets_and_lines() {
     let (min, max, reach) = corners(3);
     let mut rng = ChaCha8Rng::seed_from_u64(10);

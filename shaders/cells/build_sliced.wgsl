@@ -7,11 +7,38 @@
 #import cells/grid
 #import cells/growth
 #import cells/extent
+#if regions
+#import cells/regions
+#end
 
 var<storage, read> next_position: array<Packed>;
 // Four values a slice: lowest u, lowest w, highest u, highest w.
 var<storage, read_write> slice_bounds: array<atomic<i32>>;
 var<storage, read_write> slice_record: array<vec4i>;
+#if regions
+var<storage, read> column_region: array<i32>;
+
+fn slice_count() -> u32 {
+    return REGIONS * u32(grid.high.y - grid.low.y);
+}
+
+// For a voxel that holds a particle.
+fn slice_index(v: Coordinate) -> u32 {
+    var region = column_region[v.x - grid.low.x];
+#if !two_dimensional
+    region += i32(REGIONS_ALONG) * column_region[columns_along_u() + v.z - grid.low.z];
+#end
+    return u32(region * (grid.high.y - grid.low.y) + v.y - grid.low.y);
+}
+#else
+fn slice_count() -> u32 {
+    return u32(grid.high.y - grid.low.y);
+}
+
+fn slice_index(v: Coordinate) -> u32 {
+    return u32(v.y - grid.low.y);
+}
+#end
 
 fn lower_to(index: u32, value: i32) {
     if value < atomicLoad(&slice_bounds[index]) {
@@ -37,7 +64,7 @@ fn bound_slices(thread: Thread) {
         atomicAdd(&search_state.quarantined_so_far, 1u);
         return;
     }
-    let bounds = 4u * u32(voxel.y - grid.low.y);
+    let bounds = 4u * slice_index(voxel);
     lower_to(bounds, voxel.x);
     lower_to(bounds + 1u, third(voxel));
     raise_to(bounds + 2u, voxel.x);
@@ -47,7 +74,7 @@ fn bound_slices(thread: Thread) {
 // One workgroup. Leaves the bounds empty for the next search.
 @compute @workgroup_size(SCAN_THREADS)
 fn build_slices(@builtin(local_invocation_index) thread: u32) {
-    let slices = u32(grid.high.y - grid.low.y);
+    let slices = slice_count();
     var first_index = 0u;
     for (var base = 0u; base < slices; base += SCAN_THREADS) {
         let s = base + thread;

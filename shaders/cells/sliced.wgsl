@@ -23,12 +23,12 @@ const SPAN_VOXELS: u32 = ROW_VOXELS;
 // Addresses [first, last) of the voxels of the k-th span around `home`.
 fn span(home: Coordinate, k: u32) -> vec2u {
     let row = home + row_offset(k);
-    if row.y < grid.low.y || row.y >= grid.high.y {
+    let index = slice_index(row);
+    if index < 0 {
         return vec2u(0u);
     }
-    let index = slice_index(row);
     let slice = slice_record[index];
-    let end_of_slice = slice_record[index + 1u].x;
+    let end_of_slice = slice_record[index + 1].x;
     let base = slice.x + (third(row) - slice.z) * slice.w;
     let begin = max(home.x - i32(REACH) - slice.y, 0);
     let end = min(home.x + i32(REACH) + 1 - slice.y, slice.w);

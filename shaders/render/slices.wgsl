@@ -7,7 +7,8 @@
 #import render/line
 #import cells/grid
 
-// First voxel in the pool, corner along u and w, extent along u; one a slice, and one whose x is the total.
+// First voxel in the pool, corner along u and w, extent along u; one a slice (with
+// regions: of each region, one region after the other), and one whose x is the total.
 var<storage, read> slice_record: array<vec4i>;
 
 struct Slab {
@@ -28,7 +29,7 @@ fn slab(s: u32) -> Slab {
         return box;
     }
     let extent = vec3f(f32(record.w), 1.0, f32(voxels / record.w));
-    let corner = vec3f(f32(record.y), f32(s) + f32(grid.low.y), f32(record.z));
+    let corner = vec3f(f32(record.y), f32(i32(s) % (grid.high.y - grid.low.y) + grid.low.y), f32(record.z));
     box.low = unpermute(grid.lower.xyz + corner * grid.side);
     box.size = unpermute(extent * grid.side);
 #if two_dimensional

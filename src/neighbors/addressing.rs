@@ -27,7 +27,7 @@ pub enum RoomRule {
     /// As much, whatever the particles do; may shape the grid to its needs.
     Fixed(fn(&mut Grid, &Scene) -> Room),
     /// What the particles' voxels need; it grows on the device.
-    Followed(fn(&mut dyn Iterator<Item = Voxel>) -> Room),
+    Followed(fn(&Scene, &mut dyn Iterator<Item = Voxel>) -> Room),
 }
 
 pub const ADDRESSINGS: &[AddressingRow] = &[
@@ -44,7 +44,7 @@ pub const ADDRESSINGS: &[AddressingRow] = &[
         name: "sliced",
         source: "Harada 2007, Eq. 1 to 5",
         query: "cells/sliced",
-        room: RoomRule::Followed(room::of_slices),
+        room: RoomRule::Followed(|scene, voxels| room::of_slices(scene.neighbors.regions, voxels)),
         plan: sliced,
     },
     AddressingRow {
@@ -52,7 +52,7 @@ pub const ADDRESSINGS: &[AddressingRow] = &[
         name: "rows",
         source: "ours: slices of slices",
         query: "cells/rows",
-        room: RoomRule::Followed(room::of_rows),
+        room: RoomRule::Followed(|_, voxels| room::of_rows(voxels)),
         plan: rows,
     },
     AddressingRow {
@@ -60,7 +60,7 @@ pub const ADDRESSINGS: &[AddressingRow] = &[
         name: "bitmap",
         source: "ours: one bit a voxel, memory for those that hold particles",
         query: "cells/bitmap",
-        room: RoomRule::Followed(room::of_bitmap),
+        room: RoomRule::Followed(|_, voxels| room::of_bitmap(voxels)),
         plan: bitmap,
     },
     AddressingRow {
@@ -141,9 +141,47 @@ fn search_state(search: &mut Search) {
     ));
 }
 
-fn sliced(search: &mut Search, _: &Scene) {
+/// Regions along one direction: `REGIONS_ALONG` of `cells/regions.wgsl`.
+const REGIONS_ALONG: u64 = 4;
+
+/// Clusters of slices get slabs of their own (Harada 2007, Section 7).
+fn regions(search: &mut Search) {
+    search.flags.push("regions");
+    let along = |k: usize| (search.grid.high[k] - search.grid.low[k]) as u64;
+    let columns = along(0) + along(2);
+    search.buffers.extend([
+        BufferPlan::storage(
+            "column_mark",
+            columns,
+            4,
+            "columns of voxels that hold particles, while they are found",
+        ),
+        BufferPlan::storage("column_region", columns, 4, "region of each column of voxels"),
+    ]);
+    let build = "cells/build_regions";
+    search.passes.extend([
+        PassPlan::new(
+            build,
+            "mark_columns",
+            Items::Particles,
+            "columns of voxels that hold particles",
+        ),
+        PassPlan::new(
+            build,
+            "split_regions",
+            Items::Fixed(1),
+            "where clusters of columns begin",
+        ),
+    ]);
+}
+
+fn sliced(search: &mut Search, scene: &Scene) {
     search_state(search);
-    let slices = u64::from(search.grid.slices());
+    let mut slices = u64::from(search.grid.slices());
+    if scene.neighbors.regions {
+        regions(search);
+        slices *= REGIONS_ALONG.pow(scene.dimensions.count() as u32 - 1);
+    }
     search.buffers.extend([
         BufferPlan::storage(
             "slice_bounds",

@@ -95,7 +95,7 @@ fn measured(scene: &Scene, axis: Axis, positions: &[Vec3]) -> (Grid, Room) {
     let mut grid = Grid::new(scene, axis);
     let mut room = match addressing::row(scene.neighbors.addressing).room {
         RoomRule::Fixed(room) => room(&mut grid, scene),
-        RoomRule::Followed(room) => room(&mut positions.iter().filter_map(|&p| grid.voxel(p))),
+        RoomRule::Followed(room) => room(scene, &mut positions.iter().filter_map(|&p| grid.voxel(p))),
     };
     if scene.dimensions == Dimensions::Two && room.rows > 0 {
         room.rows = grid.slices();

@@ -70,13 +70,47 @@ fn fit(count: u64) -> u32 {
     u32::try_from(count).unwrap_or(u32::MAX)
 }
 
-/// Harada 2007, Eq. 1 to 3: the bounding box of each slice.
-pub fn of_slices(voxels: &mut dyn Iterator<Item = Voxel>) -> Room {
-    let mut boxes: BTreeMap<i32, [Extent; 2]> = BTreeMap::new();
-    for [u, s, w] in voxels {
-        let slice = boxes.entry(s).or_insert([Extent::NOTHING; 2]);
+/// Empty columns between two clusters that part them, and regions along one direction: as in
+/// `cells/build_regions.wgsl` and `cells/regions.wgsl`.
+const REGION_GAP: i32 = 4;
+const REGIONS_ALONG: usize = 4;
+
+/// The region of each column that holds a particle.
+fn regions(mut columns: Vec<i32>) -> BTreeMap<i32, usize> {
+    columns.sort_unstable();
+    columns.dedup();
+    let mut region = 0;
+    let mut last = None;
+    let mut numbered = BTreeMap::new();
+    for column in columns {
+        if last.is_some_and(|last| column - last > REGION_GAP) {
+            region = (region + 1).min(REGIONS_ALONG - 1);
+        }
+        last = Some(column);
+        numbered.insert(column, region);
+    }
+    numbered
+}
+
+/// Harada 2007, Eq. 1 to 3: the bounding box of each slice, in each of its regions where they are parted.
+pub fn of_slices(parted: bool, voxels: &mut dyn Iterator<Item = Voxel>) -> Room {
+    let mut boxes: BTreeMap<(i32, usize, usize), [Extent; 2]> = BTreeMap::new();
+    let mut add = |[u, s, w]: Voxel, across: usize, along: usize| {
+        let slice = boxes.entry((s, across, along)).or_insert([Extent::NOTHING; 2]);
         slice[0].add(u);
         slice[1].add(w);
+    };
+    if parted {
+        let voxels: Vec<Voxel> = voxels.collect();
+        let along = |k: usize| regions(voxels.iter().map(|voxel| voxel[k]).collect());
+        let (along_u, along_w) = (along(0), along(2));
+        for &voxel in &voxels {
+            add(voxel, along_u[&voxel[0]], along_w[&voxel[2]]);
+        }
+    } else {
+        for voxel in voxels {
+            add(voxel, 0, 0);
+        }
     }
     let voxels = boxes.values().map(|[u, w]| u.len() * w.len()).sum();
     Room {

@@ -197,6 +197,8 @@ pub struct Neighbors {
     pub addressing: Addressing,
     pub storage: Storage,
     pub slicing_axis: SlicingAxis,
+    /// Whether clusters of particles get slices of their own.
+    pub regions: bool,
     pub cell: Cell,
     /// Indices a voxel of a pool can hold.
     pub slots: u32,
@@ -213,6 +215,7 @@ impl From<&model::Neighbors> for Neighbors {
             addressing: given.addressing,
             storage: given.storage,
             slicing_axis: given.slicing_axis,
+            regions: given.regions,
             cell: given.cell,
             slots: given.slots,
             margin: given.margin,

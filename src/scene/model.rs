@@ -449,6 +449,8 @@ pub struct Neighbors {
     /// The axis across which slices are cut; y when left out, as in Harada 2007. With `auto` that with the fewest
     /// voxels, chosen again when the grid has to grow.
     pub slicing_axis: SlicingAxis,
+    /// Whether clusters of particles with empty space between them get slices of their own (`sliced` only).
+    pub regions: bool,
     /// Width of a voxel.
     pub cell: Cell,
     /// Indices that a voxel of a `pool` can hold.
@@ -469,6 +471,7 @@ impl Default for Neighbors {
             addressing: Addressing::default(),
             storage: Storage::default(),
             slicing_axis: SlicingAxis::default(),
+            regions: false,
             cell: Cell::default(),
             slots: 4,
             margin: 1.5,

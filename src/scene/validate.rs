@@ -129,6 +129,13 @@ fn neighbors(file: &SceneFile, frame: &Frame, report: &mut Report) -> Neighbors 
             "slice across `x` or `y`",
         );
     }
+    if given.regions && given.addressing != Addressing::Sliced {
+        report.problem(
+            "neighbors.regions",
+            "only slices can be parted into regions",
+            "set neighbors.addressing to `sliced`, or leave regions out",
+        );
+    }
     given.into()
 }
 
