@@ -16,7 +16,8 @@
 //!
 //! - `src/error.rs`: the one error type; every message says what to do next.
 //! - `src/scene/`: what a user writes (`src/scene/model.rs`), checked against its own schema (`src/scene/check.rs`),
-//!   made into numbers (`src/scene/validate.rs`); shapes, meshes and files become particles.
+//!   made into numbers (`src/scene/validate.rs`); shapes, meshes and files become particles. Points alone are a scene
+//!   without physics (`src/scene/points.rs`).
 //! - `src/gpu/`: the only user of wgpu. Shaders are composed (`src/gpu/compose.rs`) and reflected
 //!   (`src/gpu/reflect.rs`); a pass binds buffers by the name that they have everywhere (`src/gpu/pass.rs`).
 //! - `src/neighbors/`: neighbor search = `src/neighbors/addressing.rs` × `src/neighbors/storage.rs`.

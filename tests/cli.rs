@@ -52,7 +52,15 @@ fn short_run<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
 
 #[test]
 fn help_has_examples() {
-    for command in ["run", "plan", "inspect", "scenes", "schema", "devices"] {
+    for command in [
+        "run",
+        "plan",
+        "inspect",
+        "neighbors",
+        "scenes",
+        "schema",
+        "devices",
+    ] {
         let help = output(&[command, "--help"]);
         assert!(
             help.contains("Examples:") && help.contains(&format!("sliceflow {command}")),

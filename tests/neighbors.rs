@@ -57,7 +57,7 @@ fn scene_with(
 }
 
 /// All pairs by the one predicate: strictly nearer than the radius, in f32.
-fn brute_force(points: &[Vec3], radius: f32) -> (Vec<u32>, Vec<u32>) {
+fn brute_force(points: &[Vec3], radius: f32) -> (Vec<u64>, Vec<u32>) {
     let mut start = vec![0];
     let mut ids = Vec::new();
     for (i, a) in points.iter().enumerate() {
@@ -66,7 +66,7 @@ fn brute_force(points: &[Vec3], radius: f32) -> (Vec<u32>, Vec<u32>) {
                 ids.push(j as u32);
             }
         }
-        start.push(ids.len() as u32);
+        start.push(ids.len() as u64);
     }
     (start, ids)
 }

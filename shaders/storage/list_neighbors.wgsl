@@ -1,4 +1,4 @@
-// Every particle's neighbors as the search finds them: their number, then their ids, by id.
+// Every particle's neighbors as the search finds them: their number, then their ids, by the particle's slot.
 #import common/thread
 #import common/parameters
 #import common/reach
@@ -6,8 +6,10 @@
 #import <storage>
 
 var<storage, read> search_radius: f32;
-// By id: number of neighbors; then where the list begins.
 var<storage, read_write> neighbor_count: array<u32>;
+// Slots [first, last) whose neighbors are listed by this pass.
+var<storage, read> listed_slots: vec2u;
+// Where the list of each slot begins in `neighbor_id`, which holds those of the listed slots.
 var<storage, read> neighbor_start: array<u32>;
 var<storage, read_write> neighbor_id: array<u32>;
 
@@ -27,18 +29,18 @@ fn count_neighbors(thread: Thread) {
             count += u32(j != i && within(unpack(position[j]) - x, search_radius));
         }
     }
-    neighbor_count[id[i]] = count;
+    neighbor_count[i] = count;
 }
 
 @compute @workgroup_size(GROUP_SIZE)
 fn list_neighbors(thread: Thread) {
-    let i = item_index(thread);
-    if i >= parameters.particle_count {
+    let i = listed_slots.x + item_index(thread);
+    if i >= listed_slots.y {
         return;
     }
     let x = unpack(position[i]);
     let home = voxel_of(x);
-    var next = neighbor_start[id[i]];
+    var next = neighbor_start[i];
     for (var k = 0u; k < RANGES; k++) {
         let range = candidate_range(home, k);
         for (var slot = range.x; slot < range.y; slot++) {

@@ -3,6 +3,7 @@
 mod devices;
 mod grid;
 mod inspect;
+mod neighbors;
 mod plan;
 mod run;
 mod run_args;
@@ -36,6 +37,7 @@ enum Command {
     Run(run::Args),
     Plan(plan::Args),
     Inspect(inspect::Args),
+    Neighbors(neighbors::Args),
     Scenes(scenes::Args),
     Schema(schema::Args),
     Devices(devices::Args),
@@ -47,6 +49,7 @@ pub fn main() -> Result<()> {
         Command::Run(args) => run::main(&args),
         Command::Plan(args) => plan::main(&args),
         Command::Inspect(args) => inspect::main(&args),
+        Command::Neighbors(args) => neighbors::main(&args),
         Command::Scenes(args) => scenes::main(&args),
         Command::Schema(args) => schema::main(&args),
         Command::Devices(args) => devices::main(&args),

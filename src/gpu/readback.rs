@@ -41,11 +41,7 @@ impl<T> Ring<T> {
         tag: T,
         fill: impl FnOnce(&mut wgpu::CommandEncoder, &wgpu::Buffer),
     ) -> Result<Option<(Vec<u8>, T)>> {
-        let oldest = if self.under_way.len() == self.depth {
-            self.receive(gpu)?
-        } else {
-            None
-        };
+        let oldest = if self.is_full() { self.receive(gpu)? } else { None };
         let size = bytes.next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT);
         let fits = self.free.iter().position(|buffer| buffer.size() == size);
         let buffer = match fits {
@@ -69,24 +65,36 @@ impl<T> Ring<T> {
         Ok(oldest)
     }
 
+    /// Whether sending would wait for the oldest copy.
+    pub fn is_full(&self) -> bool {
+        self.under_way.len() == self.depth
+    }
+
     /// Waits for the oldest copy; `None` when nothing is under way.
     pub fn receive(&mut self, gpu: &Gpu) -> Result<Option<(Vec<u8>, T)>> {
+        let mut bytes = Vec::new();
+        let tag = self.receive_with(gpu, |mapped, _| bytes = mapped.to_vec())?;
+        Ok(tag.map(|tag| (bytes, tag)))
+    }
+
+    /// Waits for the oldest copy and shows its bytes, which are aligned for any number, where they are.
+    pub fn receive_with(&mut self, gpu: &Gpu, show: impl FnOnce(&[u8], &T)) -> Result<Option<T>> {
         let Some(copy) = self.under_way.pop_front() else {
             return Ok(None);
         };
         gpu.wait(Some(copy.submission))?;
         let mapped = copy.buffer.slice(..copy.bytes).get_mapped_range();
-        let bytes = mapped
-            .map_err(|error| {
-                Error::device(
-                    format!("results cannot be read back: {error}"),
-                    "run again; finished frames are on disk",
-                )
-            })?
-            .to_vec();
+        let mapped = mapped.map_err(|error| {
+            Error::device(
+                format!("results cannot be read back: {error}"),
+                "run again; finished frames are on disk",
+            )
+        })?;
+        show(&mapped, &copy.tag);
+        drop(mapped);
         copy.buffer.unmap();
         self.free.push(copy.buffer);
-        Ok(Some((bytes, copy.tag)))
+        Ok(Some(copy.tag))
     }
 }
 
@@ -101,6 +109,7 @@ pub fn read<T: bytemuck::Pod>(gpu: &Gpu, buffer: &wgpu::Buffer, count: usize) ->
     ring.send(gpu, encoder, bytes, (), |encoder, staging| {
         encoder.copy_buffer_to_buffer(buffer, 0, staging, 0, bytes);
     })?;
-    let received = ring.receive(gpu)?.map(|(bytes, ())| bytes).unwrap_or_default();
-    Ok(bytemuck::pod_collect_to_vec(&received))
+    let mut values = Vec::new();
+    ring.receive_with(gpu, |mapped, ()| values = bytemuck::pod_collect_to_vec(mapped))?;
+    Ok(values)
 }

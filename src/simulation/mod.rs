@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use glam::Vec3;
 
 pub use frame::{ColumnData, Frame, Statistics, Values};
-pub use neighbor_lists::NeighborLists;
+pub use neighbor_lists::{NeighborCounts, NeighborLists, PairQuery};
 
 use crate::error::{Casualty, Error, Result};
 use crate::gpu::pass::INDEX_STRIDE;
