@@ -227,14 +227,10 @@ fn starts(counts: &NeighborCounts, parts: &[Part]) -> Vec<u32> {
     starts
 }
 
-/// Zeroes for so many neighbors, if the machine has room for them.
+/// Zeroes for so many neighbors. It asks for the memory first: `vec!` would end the program where there is none.
 fn reserve(neighbors: u64) -> Result<Vec<u32>> {
-    let mut ids = Vec::new();
-    match ids.try_reserve_exact(neighbors as usize) {
-        Ok(()) => {
-            ids.resize(neighbors as usize, 0);
-            Ok(ids)
-        }
+    match Vec::<u32>::new().try_reserve_exact(neighbors as usize) {
+        Ok(()) => Ok(vec![0; neighbors as usize]),
         Err(_) => Err(Error::Limit {
             what: format!("lists of {neighbors} neighbors need {} bytes", 4 * neighbors),
             mend: "take a smaller radius, or ask for counts alone".into(),
