@@ -16,6 +16,7 @@ use sliceflow::gpu::{AdapterChoice, Gpu};
 use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
 use sliceflow::output::npy;
 use sliceflow::plan::{Plan, Wanted};
+use sliceflow::scene::model::Addressing;
 use sliceflow::scene::{Dimensions, Neighbors, Scene};
 use sliceflow::simulation::Simulation;
 
@@ -72,14 +73,21 @@ fn bare_points_are_a_scene_that_every_grid_searches() {
 }
 
 #[test]
-fn a_radius_too_small_for_the_adapter_is_refused_with_a_mend() {
+fn a_radius_too_small_for_the_whole_box_is_refused_with_a_mend_and_searched_by_a_sparse_grid() {
     let points = cloud(100, Dimensions::Three, 0.0);
-    let scene = Scene::of_points(&points, Dimensions::Three, 1e-5, Neighbors::default()).unwrap();
-    let message = Plan::new(&scene, &Limits::PROMISED, &Wanted::default())
-        .unwrap_err()
-        .to_string();
-    assert!(message.contains("voxels would fit"), "{message}");
-    assert!(message.contains("search radius"), "{message}");
+    let plan = |addressing| {
+        let neighbors = Neighbors {
+            addressing,
+            ..Default::default()
+        };
+        let scene = Scene::of_points(&points, Dimensions::Three, 1e-4, neighbors).unwrap();
+        Plan::new(&scene, &Limits::PROMISED, &Wanted::default())
+    };
+    let message = plan(Addressing::Uniform).unwrap_err().to_string();
+    for part in ["voxels would fit", "search radius"] {
+        assert!(message.contains(part), "{message}");
+    }
+    assert!(plan(Addressing::Sliced).is_ok());
 }
 
 #[test]

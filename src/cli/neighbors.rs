@@ -109,11 +109,6 @@ pub fn main(args: &Args) -> Result<()> {
         radius: args.radius,
         adapter: name,
         grid: grid::name(&choice),
-        grid_bytes: neighbors::plan(&scene, &mut Variant::default())
-            .buffers
-            .iter()
-            .map(|b| b.bytes)
-            .sum(),
         found,
         files: files.paths(),
         whole_ms: milliseconds(began),
@@ -143,6 +138,7 @@ struct Found {
     lists: Option<NeighborLists>,
     /// Points that found no slot in a pool.
     overflow: u64,
+    grid_bytes: u64,
     build_ms: f64,
     counts_ms: f64,
     lists_ms: Option<f64>,
@@ -185,10 +181,12 @@ fn search(gpu: Gpu, scene: &Scene, args: &Args) -> Result<Found> {
         found = Some((counts, lists));
     }
     let (counts, lists) = found.expect("at least one repetition");
+    let search = neighbors::plan(scene, plan.grid, &mut Variant::default());
     Ok(Found {
         counts: counts.by_id(),
         lists,
         overflow,
+        grid_bytes: search.buffers.iter().map(|buffer| buffer.bytes).sum(),
         build_ms: median(build),
         counts_ms: median(count),
         lists_ms: args.lists.is_some().then(|| median(list)),
@@ -216,7 +214,6 @@ struct Report<'a> {
     radius: f64,
     adapter: String,
     grid: String,
-    grid_bytes: u64,
     found: Found,
     files: Vec<PathBuf>,
     whole_ms: f64,
@@ -264,7 +261,7 @@ impl Report<'_> {
             "neighbors_max": most,
             "overflow": found.overflow,
             "grid": self.grid,
-            "grid_bytes": self.grid_bytes,
+            "grid_bytes": found.grid_bytes,
             "adapter": self.adapter,
             "build_ms": found.build_ms,
             "counts_ms": found.counts_ms,
@@ -292,7 +289,7 @@ impl Report<'_> {
             row("points without a slot", count(found.overflow));
         }
         row("grid", self.grid.clone());
-        row("grid takes", bytes(self.grid_bytes));
+        row("grid takes", bytes(found.grid_bytes));
         row("build", ms(found.build_ms));
         row("query, counts", ms(found.counts_ms));
         if let Some(lists_ms) = found.lists_ms {

@@ -82,13 +82,7 @@ impl Simulation {
 
     /// Runs the search again, without moving anything, and waits for it.
     pub fn search_again(&self) -> Result<()> {
-        let mut encoder = self.encoder("search");
-        let mut compute = encoder.begin_compute_pass(&Default::default());
-        for step in &self.start {
-            self.encode(step, &mut compute);
-        }
-        drop(compute);
-        self.gpu.queue.submit([encoder.finish()]);
+        self.search()?;
         self.gpu.wait(None)
     }
 
