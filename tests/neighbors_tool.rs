@@ -87,7 +87,7 @@ fn a_radius_too_small_for_the_whole_box_is_refused_with_a_mend_and_searched_by_a
     for part in ["voxels would fit", "search radius"] {
         assert!(message.contains(part), "{message}");
     }
-    assert!(plan(Addressing::Sliced).is_ok());
+    assert!(plan(Addressing::Hash).is_ok());
 }
 
 #[test]
