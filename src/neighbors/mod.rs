@@ -6,6 +6,7 @@
 pub mod addressing;
 pub mod grid;
 pub mod layout;
+pub mod occupancy;
 pub mod room;
 pub mod storage;
 
@@ -36,12 +37,17 @@ pub struct Search {
 
 /// What a scene's first state needs, with the slicing axis that needs least where the scene leaves it open.
 pub fn first_grid(scene: &Scene) -> Grid {
-    let positions = &scene.particles.position;
-    let (grid, room) = axes(scene)
+    let (grid, room) = least(scene, &scene.particles.position);
+    roomy(scene, grid, room)
+}
+
+/// The grid and the room that these local positions need, without any margin, with the slicing axis that needs least
+/// where the scene leaves it open.
+fn least(scene: &Scene, positions: &[Vec3]) -> (Grid, Room) {
+    axes(scene)
         .map(|axis| measured(scene, axis, positions))
         .min_by_key(|(_, room)| (room.voxels, room.rows))
-        .expect("a scene has axes");
-    roomy(scene, grid, room)
+        .expect("a scene has axes")
 }
 
 /// A grid with room for `needed`; with slices across another axis where the scene leaves it open and these positions
@@ -115,31 +121,37 @@ fn roomy(scene: &Scene, grid: Grid, needed: Room) -> Grid {
 
 /// The search that a scene asks for, through this grid; sets the roles `<addressing>` and `<storage>` of `variant`.
 pub fn plan(scene: &Scene, grid: Grid, variant: &mut Variant) -> Search {
-    let addressing = addressing::row(scene.neighbors.addressing);
-    let storage = storage::row(scene.neighbors.storage);
     variant
-        .role("addressing", addressing.query)
-        .role("storage", storage.query)
+        .role("addressing", addressing::row(scene.neighbors.addressing).query)
+        .role("storage", storage::row(scene.neighbors.storage).query)
         .constant("SLOTS", scene.neighbors.slots)
         .constant("REACH", grid::voxel_reach(scene));
-    let mut search = Search {
-        buffers: vec![
-            BufferPlan::uniform("grid", Grid::LAYOUT.size, "place and size of the voxels"),
-            BufferPlan::indirect(
-                "dispatch",
-                DISPATCHES,
-                16,
-                "workgroups of the passes, which the device decides",
-            ),
-        ],
-        passes: Vec::new(),
-        flags: Vec::new(),
-        grid,
-    };
-    (addressing.plan)(&mut search, scene);
+    let search = Search::new(scene, grid, scene.capacity);
     for flag in &search.flags {
         variant.flag(flag, true);
     }
-    (storage.plan)(&mut search, scene.capacity, scene.neighbors.slots);
     search
+}
+
+impl Search {
+    /// Everything that a scene's search has, with room for so many particles and for the voxels that `grid` says.
+    fn new(scene: &Scene, grid: Grid, particles: u32) -> Self {
+        let mut search = Self {
+            buffers: vec![
+                BufferPlan::uniform("grid", Grid::LAYOUT.size, "place and size of the voxels"),
+                BufferPlan::indirect(
+                    "dispatch",
+                    DISPATCHES,
+                    16,
+                    "workgroups of the passes, which the device decides",
+                ),
+            ],
+            passes: Vec::new(),
+            flags: Vec::new(),
+            grid,
+        };
+        (addressing::row(scene.neighbors.addressing).plan)(&mut search, scene);
+        (storage::row(scene.neighbors.storage).plan)(&mut search, particles, scene.neighbors.slots);
+        search
+    }
 }
