@@ -9,6 +9,7 @@ mod interrupt;
 mod manifest;
 pub mod npy;
 mod particles;
+pub mod plot;
 mod png;
 pub mod progress;
 mod run;

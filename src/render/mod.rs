@@ -16,7 +16,7 @@ mod pool_legend;
 mod stages;
 mod style;
 mod text;
-mod ticks;
+pub mod ticks;
 
 use glam::Vec3;
 
