@@ -1,7 +1,7 @@
 //! Arguments that name a scene and change it. All of them become overrides, so the scene stays the one source of what
 //! is run.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
@@ -39,6 +39,17 @@ pub struct Choices<'a> {
 impl SceneArgs {
     pub fn load(&self, choices: &Choices) -> Result<Scene> {
         load::load(&self.scene, &self.overrides(choices)?)
+    }
+
+    /// The particle file that stands where a scene is expected.
+    pub fn particle_file(&self) -> Option<&Path> {
+        let ending = self.scene.extension()?.to_string_lossy().to_ascii_lowercase();
+        matches!(ending.as_str(), "ply" | "csv" | "npy").then_some(&self.scene)
+    }
+
+    /// Whether a key of the scene is changed, which a particle file has not.
+    pub fn changes_scene(&self) -> bool {
+        !self.set.is_empty() || self.fps.is_some() || self.seed.is_some() || self.size.is_some()
     }
 
     fn overrides(&self, choices: &Choices) -> Result<Vec<String>> {

@@ -32,6 +32,18 @@ impl Table {
         self.rows.push(cells);
     }
 
+    /// The same as Markdown.
+    pub fn to_markdown(&self) -> String {
+        let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
+        let align = self.align.iter().map(|align| match align {
+            Align::Left => "---",
+            Align::Right => "---:",
+        });
+        let (heads, rows) = self.rows.split_first().expect("a table has heads");
+        let rows: String = rows.iter().map(|row| line(row)).collect();
+        format!("{}|{}|\n{rows}", line(heads), align.collect::<Vec<_>>().join("|"))
+    }
+
     /// Whether there is nothing below the heads.
     pub fn is_empty(&self) -> bool {
         self.rows.len() == 1
@@ -81,6 +93,10 @@ mod tests {
             "name     bytes  why\n\
              a            7  first\n\
              longer  123456  second one\n"
+        );
+        assert_eq!(
+            table.to_markdown(),
+            "| name | bytes | why |\n|---|---:|---|\n| a | 7 | first |\n| longer | 123456 | second one |\n"
         );
     }
 }

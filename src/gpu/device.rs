@@ -48,7 +48,8 @@ impl Limits {
     };
 }
 
-/// An open device with what the rest of the program asks about it.
+/// An open device with what the rest of the program asks about it; clones share the device.
+#[derive(Clone)]
 pub struct Gpu {
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,

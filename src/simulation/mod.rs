@@ -3,6 +3,7 @@
 pub mod frame;
 mod growth;
 mod neighbor_lists;
+mod particles;
 mod passes;
 mod segments;
 

@@ -15,8 +15,8 @@ pub struct Allocation {
     pub voxels: u64,
     /// Voxels of each of [`Census::slices`] that have memory; `None` where memory does not follow slices.
     pub slices: Option<Vec<u64>>,
-    /// Particles that find no slot.
-    pub overflow: u64,
+    /// Particles that find no slot; `None` for `hash`, whose voxels share buckets.
+    pub overflow: Option<u64>,
     /// The search's own buffers, as large as these voxels and particles need them.
     pub buffers: Vec<BufferPlan>,
     /// Their bytes.
@@ -46,9 +46,10 @@ impl Allocation {
             neighbors: *neighbors,
             voxels: room.voxels.into(),
             slices: voxels_by_slice(neighbors.addressing, census),
-            overflow: match neighbors.storage {
-                Storage::Pool => census.overflow(neighbors.slots),
-                _ => 0,
+            overflow: match (neighbors.addressing, neighbors.storage) {
+                (Addressing::Hash, _) => None,
+                (_, Storage::Pool) => Some(census.overflow(neighbors.slots)),
+                _ => Some(0),
             },
             bytes,
             bytes_per_voxel: per_voxel.sum(),

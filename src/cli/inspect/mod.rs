@@ -1,0 +1,120 @@
+//! `sliceflow inspect`
+
+mod charts;
+mod files;
+mod json;
+mod measure;
+mod structures;
+mod subject;
+mod tables;
+
+use std::path::PathBuf;
+
+use super::scene_args::SceneArgs;
+use super::{grid, stdout};
+use crate::error::{Error, Result};
+use crate::gpu::{AdapterChoice, Gpu};
+use crate::scene::Scene;
+use files::Files;
+use measure::Measured;
+use subject::Subject;
+
+/// Says how full the neighbor search's voxels are at a frame, and what memory each grid needs for that
+///
+/// Simulates once, through the scene's own grid, then searches the same state through each --grid. Bytes are those of
+/// the buffers that a search needs for so many voxels, beside the whole domain's (`uniform`), an octree's whose leaves
+/// are voxels, and a hash table's with two buckets a particle.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// Frame to look at [default: the last]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=999_999))]
+    frame: Option<u32>,
+    /// Neighbor searches, ADDRESSING-STORAGE [default: the scene's]
+    #[arg(long, value_name = "NAME", num_args = 1..)]
+    grid: Vec<String>,
+    /// Also counts every N-th frame on the way there
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    every: Option<u32>,
+    /// Search radius in the unit of a particle file (PLY, CSV, NPY), which stands in place of the scene
+    #[arg(long, value_name = "R")]
+    radius: Option<f64>,
+    /// Prints a row for each slice too
+    #[arg(long)]
+    slices: bool,
+    /// Writes everything into this folder: occupancy.json, occupancy.md, each grid's memory as a heatmap, a profile of
+    /// the slices, the allocated slices in the scene, and with --every a chart over time
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replaces those files
+    #[arg(long, requires = "out")]
+    force: bool,
+    /// Adapter, by index or part of its name (see `sliceflow devices`)
+    #[arg(long, value_name = "NAME|INDEX")]
+    adapter: Option<String>,
+    /// Prints JSON
+    #[arg(long)]
+    json: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sliceflow inspect harada_figure_2 --frame 30 --grid uniform-pool sliced-pool
+  sliceflow inspect harada_figure_2_small --every 2 --grid sliced-pool rows-pool --out out/figure_6
+  sliceflow inspect cloud.ply --radius 0.02 --grid sliced-counting --out out/cloud
+  sliceflow inspect my_scene.json --json";
+
+/// What was found about one state.
+struct Found {
+    subject: Subject,
+    grids: Vec<Measured>,
+}
+
+pub fn main(args: &Args) -> Result<()> {
+    let scene = subject::load(args)?;
+    let grids = scenes_through(&scene, &args.grid)?;
+    let files = match &args.out {
+        Some(folder) => Some(Files::open(folder, &grids, args.every.is_some(), args.force)?),
+        None => None,
+    };
+    let adapter = args.adapter.as_deref().map(AdapterChoice::parse);
+    let gpu = Gpu::open(&adapter.unwrap_or_default(), false)?;
+    let subject = Subject::reach(&gpu, scene, &grids, args.every)?;
+    let mut measured = Vec::new();
+    for scene in grids {
+        measured.push(Measured::new(&gpu, &subject, scene, files.is_some())?);
+    }
+    let found = Found {
+        subject,
+        grids: measured,
+    };
+    if let Some(files) = &files {
+        files.write(&found)?;
+    }
+    if args.json {
+        stdout::print_json(&json::report(&found))
+    } else {
+        stdout::print(&tables::report(&found, args.slices).to_text())
+    }
+}
+
+/// The scene once for each grid, with the storage and addressing of that one; no grid twice.
+fn scenes_through(scene: &Scene, names: &[String]) -> Result<Vec<Scene>> {
+    let own = [grid::name(&scene.neighbors)];
+    let names = if names.is_empty() { &own[..] } else { names };
+    let mut scenes: Vec<Scene> = Vec::new();
+    for name in names {
+        let mut scene = scene.clone();
+        (scene.neighbors.addressing, scene.neighbors.storage) = grid::parse(name)?;
+        if scenes.iter().any(|other| other.neighbors == scene.neighbors) {
+            return Err(Error::usage(
+                format!("grid `{name}` is given twice"),
+                "name each grid once",
+            ));
+        }
+        scenes.push(scene);
+    }
+    Ok(scenes)
+}
