@@ -370,7 +370,16 @@ fn a_folder_that_cannot_be_written_is_told_before_anything_runs() {
 #[test]
 fn inspect_compares_grids() {
     let grids = ["uniform-pool", "sliced-pool", "rows-counting"];
-    let mut args = vec!["inspect", "column_2d", "--frame", "2", "--every", "2", "--json", "--grid"];
+    let mut args = vec![
+        "inspect",
+        "column_2d",
+        "--frame",
+        "2",
+        "--every",
+        "2",
+        "--json",
+        "--grid",
+    ];
     args.extend(grids);
     let found = json(&args);
     let number = |value: &Value| value.as_u64().unwrap_or_else(|| panic!("no number: {value}"));
@@ -379,7 +388,12 @@ fn inspect_compares_grids() {
     assert_eq!(names, grids);
     for one in per_grid {
         assert_eq!(one["counted_on"], "device");
-        for key in ["voxels_occupied", "voxels_with_1", "voxels_with_4", "voxels_with_more"] {
+        for key in [
+            "voxels_occupied",
+            "voxels_with_1",
+            "voxels_with_4",
+            "voxels_with_more",
+        ] {
             assert_eq!(one[key], found[key], "{key} of {}", one["grid"]);
         }
         let buffers = one["buffers"].as_object().unwrap().values().map(number);
@@ -398,9 +412,18 @@ fn inspect_compares_grids() {
     assert!(uniform > sliced && sliced >= rows && rows >= number(&found["voxels_occupied"]));
     assert_eq!(found["octree"]["leaves"], found["voxels_occupied"]);
     let memory: Vec<_> = found["memory"].as_array().unwrap().iter().collect();
-    let named = |part: &str| memory.iter().filter(|one| one["name"].as_str().unwrap().contains(part)).count();
+    let named = |part: &str| {
+        memory
+            .iter()
+            .filter(|one| one["name"].as_str().unwrap().contains(part))
+            .count()
+    };
     assert_eq!(
-        (named("uniform-counting"), named("quadtree, leaves"), named("hash table")),
+        (
+            named("uniform-counting"),
+            named("quadtree, leaves"),
+            named("hash table")
+        ),
         (1, 4, 2)
     );
     let over_time = found["over_time"].as_array().unwrap();
@@ -418,11 +441,25 @@ fn inspect_writes_a_folder_and_overwrites_only_with_force() {
     let out = folder.path().join("deep/found");
     let out = out.to_str().unwrap();
     let args = [
-        "inspect", "column_2d", "--frame", "1", "--every", "1", "--size", "320x240", "--grid", "sliced-pool",
-        "rows-counting", "--out", out,
+        "inspect",
+        "column_2d",
+        "--frame",
+        "1",
+        "--every",
+        "1",
+        "--size",
+        "320x240",
+        "--grid",
+        "sliced-pool",
+        "rows-counting",
+        "--out",
+        out,
     ];
     let text = output(&args);
-    assert!(text.contains("quadtree") && text.contains("sliced-pool"), "{text}");
+    assert!(
+        text.contains("quadtree") && text.contains("sliced-pool"),
+        "{text}"
+    );
     let names: Vec<_> = files(Path::new(out)).into_keys().collect();
     assert_eq!(
         names,
@@ -442,7 +479,10 @@ fn inspect_writes_a_folder_and_overwrites_only_with_force() {
 
     let before = files(Path::new(out));
     let message = failure(&args, 2);
-    assert!(message.contains("occupancy.json") && message.contains("--force"), "{message}");
+    assert!(
+        message.contains("occupancy.json") && message.contains("--force"),
+        "{message}"
+    );
     assert!(files(Path::new(out)) == before);
     let mut forced = args.to_vec();
     forced.push("--force");
@@ -464,9 +504,23 @@ fn inspect_reads_particle_files() {
     }
     std::fs::write(&path, text).unwrap();
     let cloud = path.to_str().unwrap();
-    let found = json(&["inspect", cloud, "--radius", "1", "--grid", "sliced-pool", "--json"]);
-    assert_eq!((&found["scene"], &found["particles"]), (&"cloud".into(), &16.into()));
-    assert_eq!((&found["voxels_occupied"], &found["voxels_with_more"]), (&2.into(), &2.into()));
+    let found = json(&[
+        "inspect",
+        cloud,
+        "--radius",
+        "1",
+        "--grid",
+        "sliced-pool",
+        "--json",
+    ]);
+    assert_eq!(
+        (&found["scene"], &found["particles"]),
+        (&"cloud".into(), &16.into())
+    );
+    assert_eq!(
+        (&found["voxels_occupied"], &found["voxels_with_more"]),
+        (&2.into(), &2.into())
+    );
     assert_eq!(found["grids"][0]["voxels_allocated"], 2);
     assert_eq!(found["grids"][0]["overflow"], 8);
     assert_eq!(found["time_s"], Value::Null);

@@ -52,14 +52,11 @@ pub fn over_time(found: &Found) -> Plot {
     for (index, name) in addressings(found) {
         plot = plot.series(name, share(&|i| samples[i].grids[index].0));
     }
-    plot.series(
-        "octree, leaves and nodes",
-        share(&|i| samples[i].octree.nodes()),
-    )
-    .series(
-        "occupied voxels (the octree's leaves)",
-        share(&|i| samples[i].octree.leaves),
-    )
+    plot.series("octree, leaves and nodes", share(&|i| samples[i].octree.nodes()))
+        .series(
+            "occupied voxels (the octree's leaves)",
+            share(&|i| samples[i].octree.leaves),
+        )
 }
 
 fn title(found: &Found) -> String {

@@ -30,13 +30,19 @@ impl Files {
     pub fn open(folder: &Path, grids: &[Scene], over_time: bool, force: bool) -> Result<Self> {
         let mut names = vec![JSON.to_owned(), TABLES.into(), PROFILE.into()];
         names.extend(grids.iter().map(|scene| heatmap(&grid::name(&scene.neighbors))));
-        if grids.iter().any(|scene| scene.neighbors.addressing == Addressing::Sliced) {
+        if grids
+            .iter()
+            .any(|scene| scene.neighbors.addressing == Addressing::Sliced)
+        {
             names.push(SLICES.into());
         }
         if over_time {
             names.push(OVER_TIME.into());
         }
-        let there: Vec<_> = names.into_iter().filter(|name| folder.join(name).exists()).collect();
+        let there: Vec<_> = names
+            .into_iter()
+            .filter(|name| folder.join(name).exists())
+            .collect();
         if !there.is_empty() && !force {
             return Err(Error::usage(
                 format!("{} already holds {}", folder.display(), there.join(", ")),
@@ -44,7 +50,12 @@ impl Files {
             ));
         }
         std::fs::create_dir_all(folder).map_err(|reason| {
-            Error::file(folder, "create", reason, "choose a folder that you may write with --out")
+            Error::file(
+                folder,
+                "create",
+                reason,
+                "choose a folder that you may write with --out",
+            )
         })?;
         Ok(Self {
             folder: folder.to_owned(),

@@ -2,10 +2,10 @@
 
 use serde_json::{Map, Value, json};
 
-use super::measure::Measured;
-use super::subject::Sample;
-use super::structures::structures;
 use super::Found;
+use super::measure::Measured;
+use super::structures::structures;
+use super::subject::Sample;
 use crate::neighbors::occupancy::{Figures, Slice};
 
 pub fn report(found: &Found) -> Value {
@@ -19,7 +19,7 @@ pub fn report(found: &Found) -> Value {
         "time_s": subject.simulated.then_some(subject.time),
         "particles": census.particles,
         "particles_quarantined": census.quarantined,
-        "slicing_axis": ["x", "y", "z"][census.grid.axis as usize],
+        "slicing_axis": (["x", "y", "z"][census.grid.axis as usize]),
         "voxel_side": census.grid.side,
         "voxels_domain": domain,
     });
@@ -36,7 +36,10 @@ pub fn report(found: &Found) -> Value {
             "inner_nodes_allocated_together": octree.allocated_inner,
         }),
     );
-    object.insert("grids".into(), found.grids.iter().map(|one| grid(one, domain as f64)).collect());
+    object.insert(
+        "grids".into(),
+        found.grids.iter().map(|one| grid(one, domain as f64)).collect(),
+    );
     let memory = structures(found).into_iter().map(|one| {
         json!({
             "name": one.name,
@@ -96,7 +99,10 @@ fn grid(one: &Measured, domain: f64) -> Value {
             with: device.voxels_with.map(u64::from),
             with_more: device.voxels_with_more.into(),
         };
-        report.as_object_mut().expect("an object").extend(histogram(&figures));
+        report
+            .as_object_mut()
+            .expect("an object")
+            .extend(histogram(&figures));
     }
     report
 }

@@ -12,10 +12,10 @@ use crate::neighbors::occupancy::{Allocation, Census};
 use crate::output::{Progress, compose_picture, progress};
 use crate::plan::{Plan, Wanted};
 use crate::render::Overlay;
-use crate::scene::model::{Addressing, View};
 use crate::scene::Scene;
-use crate::simulation::frame::{Frame, Statistics};
+use crate::scene::model::{Addressing, View};
 use crate::simulation::Simulation;
+use crate::simulation::frame::{Frame, Statistics};
 
 pub struct Measured {
     /// As `--grid` calls it.

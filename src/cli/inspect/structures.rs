@@ -35,11 +35,11 @@ pub fn structures(found: &Found) -> Vec<Structure> {
             cells: one.voxels(),
             overflow: one.overflow(),
             bytes: one.allocation.bytes,
-            uniform_bytes: uniform(found, scene, one.allocation.neighbors).1.bytes,
+            uniform_bytes: uniform(scene, one.allocation.neighbors).1.bytes,
         });
     }
     for neighbors in storages {
-        let (name, whole) = uniform(found, scene, neighbors);
+        let (name, whole) = uniform(scene, neighbors);
         let mut add = |name: String, cells, bytes, overflow| {
             if structures.iter().all(|known| known.name != name) {
                 structures.push(Structure {
@@ -55,7 +55,11 @@ pub fn structures(found: &Found) -> Vec<Structure> {
         add(name, whole.voxels, whole.bytes, whole.overflow);
         let particles = found.subject.census.particles;
         let octree = found.subject.census.octree();
-        let tree = if octree.children == 8 { "octree" } else { "quadtree" };
+        let tree = if octree.children == 8 {
+            "octree"
+        } else {
+            "quadtree"
+        };
         add(
             format!("{tree}, leaves and nodes, {storage}"),
             octree.nodes(),
@@ -82,7 +86,7 @@ pub fn structures(found: &Found) -> Vec<Structure> {
 }
 
 /// The whole domain's voxels with the storage of `neighbors`, and what `--grid` calls that.
-fn uniform(found: &Found, scene: &Scene, neighbors: Neighbors) -> (String, Allocation) {
+fn uniform(scene: &Scene, neighbors: Neighbors) -> (String, Allocation) {
     let mut scene = scene.clone();
     scene.neighbors = Neighbors {
         addressing: Addressing::Uniform,

@@ -163,7 +163,11 @@ fn by_slice(found: &Found) -> Table {
         }
     }
     let total = found.subject.census.figures();
-    let voxels: Vec<_> = found.grids.iter().map(|one| Some(one.allocation.voxels)).collect();
+    let voxels: Vec<_> = found
+        .grids
+        .iter()
+        .map(|one| Some(one.allocation.voxels))
+        .collect();
     table.row(row("all".into(), &total, &voxels));
     table
 }
