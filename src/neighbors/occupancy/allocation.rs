@@ -45,7 +45,7 @@ impl Allocation {
         Self {
             neighbors: *neighbors,
             voxels: room.voxels.into(),
-            slices: voxels_by_slice(neighbors.addressing, census),
+            slices: voxels_by_slice(scene, census),
             overflow: match (neighbors.addressing, neighbors.storage) {
                 (Addressing::Hash, _) => None,
                 (_, Storage::Pool) => Some(census.overflow(neighbors.slots)),
@@ -76,7 +76,8 @@ impl Allocation {
     }
 }
 
-fn voxels_by_slice(kind: Addressing, census: &Census) -> Option<Vec<u64>> {
+fn voxels_by_slice(scene: &Scene, census: &Census) -> Option<Vec<u64>> {
+    let kind = scene.neighbors.addressing;
     let slices = census.slices();
     match addressing::row(kind).room {
         RoomRule::Followed(room) => {
@@ -84,7 +85,7 @@ fn voxels_by_slice(kind: Addressing, census: &Census) -> Option<Vec<u64>> {
                 let begin = census.voxels.partition_point(|voxel| voxel.at[1] < at);
                 let end = census.voxels.partition_point(|voxel| voxel.at[1] <= at);
                 let mut voxels = census.voxels[begin..end].iter().map(|voxel| voxel.at);
-                u64::from(room(&mut voxels).voxels)
+                u64::from(room(scene, &mut voxels).voxels)
             };
             Some(slices.iter().map(|slice| of_slice(slice.at)).collect())
         }
