@@ -430,7 +430,7 @@ fn inspect_compares_grids() {
     assert_eq!(over_time.len(), 2);
     assert_eq!(over_time[1]["voxels_allocated"]["sliced-pool"], sliced);
 
-    assert!(failure(&["inspect", "column_2d", "--grid", "sliced-pol"], 2).contains("sliced"));
+    assert!(failure(&["inspect", "column_2d", "--grid", "sliced-pol"], 2).contains("there is counting"));
     let twice = ["inspect", "column_2d", "--grid", "sliced-pool", "sliced-pool"];
     assert!(failure(&twice, 2).contains("twice"));
 }

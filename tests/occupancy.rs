@@ -221,6 +221,35 @@ fn every_search_has_what_the_host_counts() {
 }
 
 #[test]
+fn slices_of_regions_add_up_to_what_the_device_has() {
+    // Two clouds that a slice's box would span, and that no single slice shows to be parted.
+    let min = common::scene(3, &[]).domain.min;
+    let mut points = Vec::new();
+    for i in 0..20 {
+        let step = Vec3::new(0.02, 0.045, 0.02) * i as f32;
+        points.extend([min + 0.1 * Vec3::ONE + step * Vec3::new(0.1, 1.0, 0.1)]);
+        points.push(min + Vec3::new(0.85, 0.05, 0.65) + step * Vec3::new(0.1, 0.3, 0.1));
+        points.push(min + Vec3::new(0.1 + 0.005 * i as f32, 0.4, 0.1));
+    }
+    let count = |regions: bool| {
+        let mut scene = scene_of(3, "y", &points);
+        scene.neighbors.regions = regions;
+        let wanted = Wanted {
+            statistics: true,
+            ..Default::default()
+        };
+        let mut simulation = common::simulate(&scene, &wanted);
+        simulation.next_frame().unwrap();
+        let device = simulation.finish_frame().unwrap().unwrap().statistics.unwrap();
+        let host = Allocation::of(&scene, &Census::of(&scene, &points));
+        assert_eq!(host.voxels, u64::from(device.voxels_allocated));
+        assert_eq!(host.slices.unwrap().iter().sum::<u64>(), host.voxels);
+        host.voxels
+    };
+    assert!(count(true) < count(false));
+}
+
+#[test]
 fn bytes_are_those_of_the_planned_buffers() {
     let points = points(3, 4);
     for addressing in ADDRESSINGS {

@@ -6,7 +6,6 @@ use serde_json::Value;
 use crate::error::{Error, Result};
 use crate::neighbors::{ADDRESSINGS, STORAGES};
 use crate::scene::Neighbors;
-use crate::scene::model::{Addressing, Storage};
 
 fn split(name: &str) -> Result<(&str, &str)> {
     name.split_once('-').ok_or_else(|| {
@@ -54,27 +53,6 @@ pub fn overrides(name: &str) -> Result<[String; 2]> {
         format!("neighbors.addressing={addressing}"),
         format!("neighbors.storage={storage}"),
     ])
-}
-
-/// The addressing and storage that `name` stands for.
-pub fn parse(name: &str) -> Result<(Addressing, Storage)> {
-    let found = name.split_once('-').and_then(|(addressing, storage)| {
-        let addressing = ADDRESSINGS.iter().find(|row| row.name == addressing)?;
-        let storage = STORAGES.iter().find(|row| row.name == storage)?;
-        Some((addressing.kind, storage.kind))
-    });
-    found.ok_or_else(|| {
-        let addressings: Vec<_> = ADDRESSINGS.iter().map(|row| row.name).collect();
-        let storages: Vec<_> = STORAGES.iter().map(|row| row.name).collect();
-        Error::usage(
-            format!("`{name}` is no grid"),
-            format!(
-                "write ADDRESSING-STORAGE with one of {} and one of {}: --grid sliced-pool",
-                addressings.join(", "),
-                storages.join(", ")
-            ),
-        )
-    })
 }
 
 /// What `--grid` calls this choice.

@@ -94,6 +94,14 @@ fn regions(mut columns: Vec<i32>) -> BTreeMap<i32, usize> {
 
 /// Harada 2007, Eq. 1 to 3: the bounding box of each slice, in each of its regions where they are parted.
 pub fn of_slices(parted: bool, voxels: &mut dyn Iterator<Item = Voxel>) -> Room {
+    Room {
+        voxels: fit(voxels_of_slices(parted, voxels).values().sum()),
+        ..Default::default()
+    }
+}
+
+/// The same, slice by slice.
+pub fn voxels_of_slices(parted: bool, voxels: &mut dyn Iterator<Item = Voxel>) -> BTreeMap<i32, u64> {
     let mut boxes: BTreeMap<(i32, usize, usize), [Extent; 2]> = BTreeMap::new();
     let mut add = |[u, s, w]: Voxel, across: usize, along: usize| {
         let slice = boxes.entry((s, across, along)).or_insert([Extent::NOTHING; 2]);
@@ -112,11 +120,11 @@ pub fn of_slices(parted: bool, voxels: &mut dyn Iterator<Item = Voxel>) -> Room 
             add(voxel, 0, 0);
         }
     }
-    let voxels = boxes.values().map(|[u, w]| u.len() * w.len()).sum();
-    Room {
-        voxels: fit(voxels),
-        ..Default::default()
+    let mut slices = BTreeMap::new();
+    for ((s, _, _), [u, w]) in boxes {
+        *slices.entry(s).or_insert(0) += u.len() * w.len();
     }
+    slices
 }
 
 /// Extents of rows, and of each slice along w: rows, voxels and words of 32 voxels in all.

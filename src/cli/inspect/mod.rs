@@ -107,7 +107,8 @@ fn scenes_through(scene: &Scene, names: &[String]) -> Result<Vec<Scene>> {
     let mut scenes: Vec<Scene> = Vec::new();
     for name in names {
         let mut scene = scene.clone();
-        (scene.neighbors.addressing, scene.neighbors.storage) = grid::parse(name)?;
+        let chosen = grid::neighbors(name)?;
+        (scene.neighbors.addressing, scene.neighbors.storage) = (chosen.addressing, chosen.storage);
         if scenes.iter().any(|other| other.neighbors == scene.neighbors) {
             return Err(Error::usage(
                 format!("grid `{name}` is given twice"),

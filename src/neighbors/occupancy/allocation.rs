@@ -1,9 +1,9 @@
 //! What a grid gives memory to, and the bytes of it.
 
-use super::Census;
+use super::{Census, Slice};
 use crate::gpu::BufferPlan;
 use crate::neighbors::addressing::{self, RoomRule};
-use crate::neighbors::{Grid, Room, Search, storage};
+use crate::neighbors::{Grid, Room, Search, room, storage};
 use crate::scene::model::{Addressing, Storage};
 use crate::scene::{Neighbors, Scene};
 
@@ -79,21 +79,28 @@ impl Allocation {
 fn voxels_by_slice(scene: &Scene, census: &Census) -> Option<Vec<u64>> {
     let kind = scene.neighbors.addressing;
     let slices = census.slices();
-    match addressing::row(kind).room {
-        RoomRule::Followed(room) => {
-            let of_slice = |at: i32| {
-                let begin = census.voxels.partition_point(|voxel| voxel.at[1] < at);
-                let end = census.voxels.partition_point(|voxel| voxel.at[1] <= at);
-                let mut voxels = census.voxels[begin..end].iter().map(|voxel| voxel.at);
-                u64::from(room(scene, &mut voxels).voxels)
-            };
-            Some(slices.iter().map(|slice| of_slice(slice.at)).collect())
+    let in_slice = |at: i32| {
+        let begin = census.voxels.partition_point(|voxel| voxel.at[1] < at);
+        let end = census.voxels.partition_point(|voxel| voxel.at[1] <= at);
+        census.voxels[begin..end].iter().map(|voxel| voxel.at)
+    };
+    match (kind, addressing::row(kind).room) {
+        // Regions are parted by the particles of all slices.
+        (Addressing::Sliced, _) => {
+            let mut voxels = census.voxels.iter().map(|voxel| voxel.at);
+            let found = room::voxels_of_slices(scene.neighbors.regions, &mut voxels);
+            let of_slice = |slice: &Slice| found.get(&slice.at).copied().unwrap_or(0);
+            Some(slices.iter().map(of_slice).collect())
         }
-        RoomRule::Fixed(_) if kind == Addressing::Uniform => {
+        (Addressing::Uniform, _) => {
             let [u, _, w, _] = census.grid.size;
             Some(vec![u as u64 * w as u64; slices.len()])
         }
-        RoomRule::Fixed(_) => None,
+        (_, RoomRule::Followed(room)) => {
+            let of_slice = |slice: &Slice| room(scene, &mut in_slice(slice.at)).voxels.into();
+            Some(slices.iter().map(of_slice).collect())
+        }
+        (_, RoomRule::Fixed(_)) => None,
     }
 }
 
