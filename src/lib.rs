@@ -27,6 +27,7 @@
 //! - `src/plan/`: scene + limits → every buffer and pass, with the reason for each. Needs no GPU.
 //! - `src/simulation/`: executes a plan: steps, frames, what comes back.
 //! - `src/output/`: sinks, each fed by bounded threads, and the run that drives them.
+//! - `src/study/`: what the papers measured, measured again, a page each.
 //! - `src/cli/`: one file a command.
 //!
 //! `shaders/` mirrors this: `shaders/common/`, `shaders/cells/` (addressing), `shaders/storage/`, `shaders/physics/`,
@@ -60,3 +61,4 @@ pub mod plan;
 pub mod render;
 pub mod scene;
 pub mod simulation;
+pub mod study;

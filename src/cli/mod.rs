@@ -11,6 +11,7 @@ mod scene_args;
 mod scenes;
 mod schema;
 mod stdout;
+mod study;
 mod table;
 
 use clap::{Parser, Subcommand};
@@ -41,6 +42,7 @@ enum Command {
     Scenes(scenes::Args),
     Schema(schema::Args),
     Devices(devices::Args),
+    Study(study::Args),
 }
 
 /// Does what the program's arguments say. Ends the program after `--help`, and when they make no sense.
@@ -53,6 +55,7 @@ pub fn main() -> Result<()> {
         Command::Scenes(args) => scenes::main(&args),
         Command::Schema(args) => schema::main(&args),
         Command::Devices(args) => devices::main(&args),
+        Command::Study(args) => study::main(&args),
     }
 }
 

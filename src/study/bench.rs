@@ -1,0 +1,361 @@
+//! Runs scenes for a study: states to start from, pictures, and times of several grids side by side.
+
+use std::io::Write as _;
+use std::time::Instant;
+
+use glam::{DVec3, Vec3};
+use image::RgbaImage;
+use serde_json::json;
+
+use super::page::{Cell, Page, Table};
+use crate::error::Result;
+use crate::gpu::device::{Identity, Limits};
+use crate::gpu::{AdapterChoice, Gpu};
+use crate::neighbors::{ADDRESSINGS, STORAGES};
+use crate::output::{columns_named, compose_picture};
+use crate::plan::{Plan, Wanted};
+use crate::render::Overlay;
+use crate::scene::model::View;
+use crate::scene::{Particles, Scene};
+use crate::simulation::Simulation;
+use crate::simulation::frame::{Frame, Values};
+
+/// The adapter that a study uses.
+pub struct Bench {
+    choice: AdapterChoice,
+    pub limits: Limits,
+    identity: Identity,
+    software: bool,
+}
+
+/// Milliseconds of a grid: medians over rounds that took turns with the other grids' rounds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Times {
+    /// Wall time of one step, many steps in one submission.
+    pub step_ms: f64,
+    /// Lowest and highest round.
+    pub spread_ms: [f64; 2],
+    /// Label and time of each pass of a step, each timed alone.
+    pub passes: Vec<(String, f64)>,
+    /// The sum of the search's passes.
+    pub build_ms: f64,
+}
+
+impl Times {
+    /// The sum of the passes that read the grid.
+    pub fn query_ms(&self) -> f64 {
+        self.passes.iter().map(|(_, ms)| ms).sum::<f64>() - self.build_ms
+    }
+}
+
+/// How often is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Effort {
+    pub rounds: u32,
+    /// Steps of a round.
+    pub steps: u32,
+}
+
+/// A scene and what it is called beside others.
+pub struct Entry {
+    pub name: String,
+    pub scene: Scene,
+}
+
+/// What an entry came to: times, or why there are none.
+pub type Outcome = std::result::Result<Times, String>;
+
+impl Bench {
+    pub fn open(choice: &AdapterChoice) -> Result<Self> {
+        let gpu = Gpu::open(choice, false)?;
+        Ok(Self {
+            choice: choice.clone(),
+            limits: gpu.limits,
+            identity: Identity::of(&gpu.adapter),
+            software: gpu.is_software(),
+        })
+    }
+
+    /// Says on the page what measured, and how.
+    pub fn describe(&self, page: &mut Page, effort: Effort) {
+        let identity = &self.identity;
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let mut table = Table::new(["measured on", ""]);
+        let mut row = |name: &str, value: String| table.row([Cell::text(name), Cell::text(value)]);
+        row(
+            "adapter",
+            format!("{} ({}, {})", identity.name, identity.kind, identity.backend),
+        );
+        row("driver", format!("{} {}", identity.driver, identity.driver_info));
+        row("processor threads", threads.to_string());
+        row("Sliceflow", env!("CARGO_PKG_VERSION").to_owned());
+        row(
+            "buffer that can be bound",
+            crate::output::text::bytes(self.limits.binding),
+        );
+        page.table("environment", &table);
+        let clock = if self.software {
+            "A pass is timed by the processor's clock, submitted alone and waited for, since a software adapter's own \
+             stamps do not wait for a pass's threads; that adds some hundredths of a millisecond to each pass."
+        } else {
+            "A pass is timed by the device's timestamps."
+        };
+        page.paragraph(format!(
+            "Times are medians of {} rounds. In each round every grid of a table has its turn (from the first to the \
+             last, then from the last to the first), so that whatever else the machine does hits all alike. A step's \
+             time is the wall time of {} steps in one submission; construction is the sum of the search's passes, each \
+             timed alone. Single rounds on a shared machine differ by a factor of two and more: compare within a table.",
+            effort.rounds, effort.steps
+        ));
+        page.paragraph(clock);
+        page.value(
+            "effort",
+            json!({ "rounds": effort.rounds, "steps": effort.steps }),
+        );
+    }
+
+    fn simulation(&self, scene: &Scene, wanted: &Wanted) -> Result<Simulation> {
+        let gpu = Gpu::open(&self.choice, false)?;
+        let plan = Plan::new(scene, &gpu.limits, wanted)?;
+        Simulation::new(gpu, scene, &plan)
+    }
+
+    /// Runs a scene; `each` sees every frame's time (seconds) and particles (local coordinates, in order of id).
+    pub fn run(&self, scene: &Scene, mut each: impl FnMut(f64, Particles)) -> Result<()> {
+        let wanted = Wanted {
+            columns: columns_named(["position", "velocity"])?,
+            ..Default::default()
+        };
+        let mut simulation = self.simulation(scene, &wanted)?;
+        let mut take = |frame: Frame| each(frame.time, particles(scene.origin, &frame));
+        for _ in 0..scene.time.frames {
+            if let Some(frame) = simulation.next_frame()? {
+                take(frame);
+            }
+        }
+        while let Some(frame) = simulation.finish_frame()? {
+            take(frame);
+        }
+        Ok(())
+    }
+
+    /// The picture of a scene's first state.
+    pub fn picture(&self, scene: &Scene, view: View) -> Result<Option<RgbaImage>> {
+        let wanted = Wanted {
+            statistics: true,
+            view: Some(view),
+            ..Default::default()
+        };
+        let mut simulation = self.simulation(scene, &wanted)?;
+        let first = simulation.next_frame()?;
+        let frame = match first {
+            Some(frame) => Some(frame),
+            None => simulation.finish_frame()?,
+        };
+        match frame {
+            Some(frame) => compose_picture(&frame, &Overlay::new(scene, view)?),
+            None => Ok(None),
+        }
+    }
+
+    /// Times of all entries, round by round.
+    pub fn measure(&self, entries: &[Entry], effort: Effort) -> Vec<Outcome> {
+        let mut runs: Vec<_> = entries
+            .iter()
+            .map(|entry| Measured::new(self, entry, effort).map_err(|error| first_line(&error)))
+            .collect();
+        for round in 0..effort.rounds as usize {
+            let forwards = round % 2 == 0;
+            for turn in 0..runs.len() {
+                let index = if forwards { turn } else { runs.len() - 1 - turn };
+                if let Ok(run) = &mut runs[index]
+                    && let Err(error) = run.round(effort)
+                {
+                    runs[index] = Err(first_line(&error));
+                }
+            }
+        }
+        runs.into_iter().map(|run| run.map(Measured::times)).collect()
+    }
+
+    /// Frames a second of a scene whose frames are single steps: drawn, with their pixels brought back.
+    pub fn frames_per_second(&self, scene: &Scene, frames: u32) -> Result<f64> {
+        let wanted = Wanted {
+            view: Some(View::Scene),
+            ..Default::default()
+        };
+        let mut simulation = self.simulation(scene, &wanted)?;
+        // The first frames compile the shaders.
+        for _ in 0..4 {
+            simulation.next_frame()?;
+        }
+        while simulation.finish_frame()?.is_some() {}
+        let start = Instant::now();
+        for _ in 0..frames {
+            simulation.next_frame()?;
+        }
+        while simulation.finish_frame()?.is_some() {}
+        Ok(f64::from(frames) / start.elapsed().as_secs_f64())
+    }
+}
+
+/// One entry's simulation and what it has shown so far.
+struct Measured {
+    simulation: Simulation,
+    search: Vec<String>,
+    step_ms: Vec<f64>,
+    passes: Vec<(String, Vec<f64>)>,
+}
+
+impl Measured {
+    fn new(bench: &Bench, entry: &Entry, effort: Effort) -> Result<Self> {
+        let scene = with_steps_per_frame(&entry.scene, effort.steps);
+        let gpu = Gpu::open(&bench.choice, false)?;
+        let plan = Plan::new(&scene, &gpu.limits, &Wanted::default())?;
+        let is_search = |shader: &str| shader.starts_with("cells/") || shader.starts_with("storage/");
+        let search = plan
+            .passes
+            .iter()
+            .filter(|row| is_search(&row.pass.shader))
+            .map(|row| row.pass.entry.clone())
+            .collect();
+        let mut measured = Self {
+            simulation: Simulation::new(gpu, &scene, &plan)?,
+            search,
+            step_ms: Vec::new(),
+            passes: Vec::new(),
+        };
+        // The first state, and the steps that compile the shaders.
+        measured.frame()?;
+        measured.frame()?;
+        Ok(measured)
+    }
+
+    /// Simulates a frame and waits for it.
+    fn frame(&mut self) -> Result<Option<Frame>> {
+        let mut last = self.simulation.next_frame()?;
+        while let Some(frame) = self.simulation.finish_frame()? {
+            last = Some(frame);
+        }
+        Ok(last)
+    }
+
+    fn round(&mut self, effort: Effort) -> Result<()> {
+        let start = Instant::now();
+        self.frame()?;
+        self.step_ms
+            .push(start.elapsed().as_secs_f64() * 1e3 / f64::from(effort.steps));
+        self.simulation.set_timings(true);
+        let timed = self.frame()?;
+        self.simulation.set_timings(false);
+        for (label, ms) in timed.into_iter().flat_map(|frame| frame.pass_ms) {
+            match self.passes.iter_mut().find(|(known, _)| *known == label) {
+                Some((_, times)) => times.push(ms),
+                None => self.passes.push((label, vec![ms])),
+            }
+        }
+        Ok(())
+    }
+
+    fn times(self) -> Times {
+        let passes: Vec<_> = self
+            .passes
+            .into_iter()
+            .map(|(label, times)| (label, median(times)))
+            .collect();
+        let build = passes.iter().filter(|(label, _)| self.search.contains(label));
+        let extreme =
+            |pick: fn(f64, f64) -> f64| self.step_ms.iter().copied().reduce(pick).unwrap_or(f64::NAN);
+        Times {
+            build_ms: build.map(|(_, ms)| ms).sum(),
+            spread_ms: [extreme(f64::min), extreme(f64::max)],
+            step_ms: median(self.step_ms),
+            passes,
+        }
+    }
+}
+
+/// The middle value, NaN of nothing.
+pub fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    match values.len() {
+        0 => f64::NAN,
+        n if n % 2 == 1 => values[n / 2],
+        n => (values[n / 2 - 1] + values[n / 2]) / 2.0,
+    }
+}
+
+/// Names of all grids, `ADDRESSING-STORAGE`.
+pub fn grid_names() -> Vec<String> {
+    let storages = |addressing: &'static str| {
+        STORAGES
+            .iter()
+            .map(move |storage| format!("{addressing}-{}", storage.name))
+    };
+    ADDRESSINGS.iter().flat_map(|row| storages(row.name)).collect()
+}
+
+/// The scene with frames of so many steps.
+pub fn with_steps_per_frame(scene: &Scene, steps: u32) -> Scene {
+    let mut scene = scene.clone();
+    scene.time.steps_per_frame = steps;
+    scene.time.fps = 1.0 / (f64::from(steps) * scene.time.step);
+    scene
+}
+
+/// Tells on standard error what is under way.
+pub fn progress(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
+/// An error without its mend, for a table.
+fn first_line(error: &crate::error::Error) -> String {
+    let text = error.to_string();
+    let lines: Vec<_> = text
+        .lines()
+        .map(str::trim)
+        .filter(|line| !line.starts_with("mend:"))
+        .collect();
+    lines.join(" ")
+}
+
+/// A frame's particles in local coordinates.
+fn particles(origin: DVec3, frame: &Frame) -> Particles {
+    let mut particles = Particles::default();
+    for column in &frame.columns {
+        match &column.values {
+            Values::Double { columns, values } => {
+                let point = |v: &[f64]| DVec3::new(v[0], v[1], v.get(2).copied().unwrap_or(0.0)) - origin;
+                particles.position = values
+                    .chunks_exact(*columns)
+                    .map(|v| point(v).as_vec3())
+                    .collect();
+            }
+            Values::Vector { columns, values } => {
+                let vector = |v: &[f32]| Vec3::new(v[0], v[1], v.get(2).copied().unwrap_or(0.0));
+                particles.velocity = values.chunks_exact(*columns).map(vector).collect();
+            }
+            Values::Float(_) | Values::Unsigned(_) => {}
+        }
+    }
+    particles
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_is_in_the_middle() {
+        assert_eq!(median(vec![3.0, 1.0, 2.0]), 2.0);
+        assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), 2.5);
+        assert!(median(vec![]).is_nan());
+    }
+
+    #[test]
+    fn every_grid_has_a_name() {
+        let names = grid_names();
+        assert_eq!(names.len(), ADDRESSINGS.len() * STORAGES.len());
+        assert!(names.contains(&"sliced-pool".to_owned()));
+    }
+}

@@ -1,0 +1,142 @@
+//! Figure 8: a large area.
+
+use glam::Vec3;
+
+use super::Scale;
+use super::memory::Memory;
+use crate::error::Result;
+use crate::neighbors::ADDRESSINGS;
+use crate::plan::{Plan, Wanted};
+use crate::scene::{Particles, Scene};
+use crate::study::bench::{Bench, Effort, Entry, grid_names, progress};
+use crate::study::page::{Cell, Page, Table};
+use crate::study::scenes;
+
+/// Voxels along x, y, z; y is up.
+const AREA: [u32; 3] = [700, 256, 700];
+
+/// Bytes that a voxel takes in the paper: four indices of four bytes.
+const PAPER_VOXEL_BYTES: u64 = 16;
+
+/// Hills of grains on the whole floor, one grain a voxel: about 8.2 layers on average, so 4 million at full size, and
+/// up to 20 in the middle of a hill.
+fn landscape(divisor: u32) -> Result<Scene> {
+    let voxels = AREA.map(|n| n / divisor);
+    let wave = |x: f32, n: u32| (x / n as f32 * 3.0 * std::f32::consts::TAU).sin();
+    let layers = 20.0 / divisor as f32;
+    let height = |v: Vec3| {
+        let hill = (wave(v.x, voxels[0]) * wave(v.z, voxels[2]) + 1.0) / 2.0;
+        layers * hill.powf(1.32)
+    };
+    let particles = scenes::lattice([voxels[0], layers.ceil() as u32, voxels[2]], |voxel| {
+        voxel.y < height(voxel)
+    });
+    scenes::with_particles(&scenes::base("large", voxels), particles)
+}
+
+pub fn figure_8(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
+    page.heading("Figure 8: a large area");
+    progress("harada: a large area");
+    let full = landscape(1)?;
+    memory(page, &full);
+    let mut table = Table::new([
+        "scene",
+        "grid",
+        "grains",
+        "construction, ms",
+        "step, ms",
+        "remark",
+    ]);
+    let effort = Effort { rounds: 3, steps: 2 };
+    run(&mut table, bench, "full size", &full, effort);
+    if scale.large_divisor > 1 {
+        let smaller = landscape(scale.large_divisor)?;
+        run(
+            &mut table,
+            bench,
+            &format!("1/{} along each side", scale.large_divisor),
+            &smaller,
+            effort,
+        );
+    }
+    page.paragraph(format!(
+        "Steps on this adapter (medians of {} rounds of {} steps). A grid that does not fit is refused by the plan with \
+         the bytes that it would need.",
+        effort.rounds, effort.steps
+    ));
+    page.table("figure_8_times", &table);
+    Ok(())
+}
+
+/// Voxels and bytes at full size, counted on the host.
+fn memory(page: &mut Page, scene: &Scene) {
+    let Particles { position, .. } = &scene.particles;
+    let memory = Memory::of(scene, position);
+    page.paragraph(format!(
+        "{} grains lie in hills on the floor of {} × {} × {} voxels. Counted on the host from the particles, at full size. \
+         The paper, with about four million particles: about 2 GB for a uniform grid, which it could not run, and about \
+         150 MB for the sliced one, at four indices of four bytes a voxel.",
+        position.len(),
+        AREA[0],
+        AREA[2],
+        AREA[1]
+    ));
+    let mut table = Table::new([
+        "addressing",
+        "voxels",
+        "four indices a voxel",
+        "paper",
+        "`counting`, all buffers",
+    ]);
+    for (row, voxels) in ADDRESSINGS.iter().zip(memory.voxels()) {
+        let paper = match row.name {
+            "uniform" => Cell::text("about 2 GB"),
+            "sliced" => Cell::text("about 150 MB"),
+            _ => Cell::Nothing,
+        };
+        table.row([
+            Cell::text(format!("`{}`", row.name)),
+            Cell::count(voxels),
+            Cell::bytes(voxels * PAPER_VOXEL_BYTES),
+            paper,
+            Cell::bytes(memory.allocation(&format!("{}-counting", row.name)).bytes),
+        ]);
+    }
+    table.row([
+        Cell::text("octree's leaves"),
+        Cell::count(memory.octree.leaves),
+        Cell::bytes(memory.octree.leaves * PAPER_VOXEL_BYTES),
+        Cell::Nothing,
+        Cell::bytes(memory.octree_bytes("counting")[0]),
+    ]);
+    page.table("figure_8_memory", &table);
+}
+
+/// Runs the grids that this adapter can hold.
+fn run(table: &mut Table, bench: &Bench, name: &str, scene: &Scene, effort: Effort) {
+    for grid in grid_names() {
+        let planned = scenes::with_grid(scene, &grid)
+            .and_then(|scene| Plan::new(&scene, &bench.limits, &Wanted::default()).map(|_| scene));
+        let outcome = match planned {
+            Ok(scene) => bench
+                .measure(
+                    &[Entry {
+                        name: grid.clone(),
+                        scene,
+                    }],
+                    effort,
+                )
+                .remove(0),
+            Err(error) => Err(error.to_string().lines().next().unwrap_or_default().to_owned()),
+        };
+        let times = outcome.as_ref().ok();
+        table.row([
+            Cell::text(name),
+            Cell::text(format!("`{grid}`")),
+            Cell::count(scene.capacity.into()),
+            Cell::maybe(times.map(|t| t.build_ms)),
+            Cell::maybe(times.map(|t| t.step_ms)),
+            outcome.as_ref().err().map_or(Cell::Nothing, Cell::text),
+        ]);
+    }
+}

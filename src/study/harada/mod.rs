@@ -1,0 +1,144 @@
+//! `sliceflow study harada`: what Harada 2007 measured, measured again.
+
+mod construction;
+mod drops;
+mod large;
+mod memory;
+mod pictures;
+mod shapes;
+mod times;
+
+use std::path::PathBuf;
+
+use super::bench::{Bench, Effort};
+use super::page::Page;
+use super::{Settings, Size};
+use crate::error::Result;
+
+/// A row of Harada 2007's Tables 1 and 2, measured on a GeForce 8800 GTX.
+struct Paper {
+    grains: u64,
+    /// Largest share of the cube's voxels that the sliced grid used.
+    ratio: f64,
+    /// Milliseconds: construction (a), (b) and one step (c), (d), fixed grid and sliced grid.
+    build: [f64; 2],
+    step: [f64; 2],
+    /// Largest number of the sliced grid's voxels.
+    voxels: u64,
+}
+
+/// The first row says 16,386 grains; 16 × 64 × 16 are 16,384, and the others fit such blocks too.
+const PAPER: [Paper; 4] = [
+    Paper {
+        grains: 16_386,
+        ratio: 0.0394,
+        build: [1.48, 0.688],
+        step: [2.53, 2.19],
+        voxels: 82_675,
+    },
+    Paper {
+        grains: 65_536,
+        ratio: 0.0619,
+        build: [3.91, 2.56],
+        step: [9.68, 8.58],
+        voxels: 129_781,
+    },
+    Paper {
+        grains: 262_144,
+        ratio: 0.269,
+        build: [13.9, 10.3],
+        step: [42.0, 36.9],
+        voxels: 564_354,
+    },
+    Paper {
+        grains: 589_824,
+        ratio: 0.488,
+        build: [31.7, 23.0],
+        step: [96.4, 90.9],
+        voxels: 1_022_551,
+    },
+];
+
+/// How large everything is.
+struct Scale {
+    /// Voxels along a side of the cube; the paper has 128.
+    cells: u32,
+    /// Grains along the sides of the blocks' floors; blocks are half as high as the cube.
+    columns: [u32; 4],
+    /// Of each drop.
+    seconds: f64,
+    fps: f64,
+    effort: Effort,
+    /// Repetitions of a construction on the processor.
+    cpu_rounds: u32,
+    /// The paper's large area has 700 × 256 × 700 voxels; ours that runs is so many times smaller along each side.
+    large_divisor: u32,
+}
+
+fn scale(size: Size) -> Scale {
+    match size {
+        Size::Tiny => Scale {
+            cells: 16,
+            columns: [2, 4, 8, 12],
+            seconds: 0.02,
+            fps: 200.0,
+            effort: Effort { rounds: 1, steps: 2 },
+            cpu_rounds: 3,
+            large_divisor: 16,
+        },
+        Size::Small => Scale {
+            cells: 48,
+            columns: [6, 12, 24, 36],
+            seconds: 0.4,
+            fps: 60.0,
+            effort: Effort { rounds: 3, steps: 4 },
+            cpu_rounds: 15,
+            large_divisor: 4,
+        },
+        Size::Full => Scale {
+            cells: 128,
+            columns: [16, 32, 64, 96],
+            seconds: 1.2,
+            fps: 60.0,
+            effort: Effort {
+                rounds: 15,
+                steps: 20,
+            },
+            cpu_rounds: 31,
+            large_divisor: 1,
+        },
+    }
+}
+
+pub fn harada(settings: &Settings) -> Result<PathBuf> {
+    let title = "Harada, Koshizuka and Kawaguchi 2007, *Sliced Data Structure for Particle-Based Simulations on GPUs*, \
+                 beside Sliceflow";
+    let mut page = Page::create(&settings.folder, "harada", title, settings.force)?;
+    let bench = Bench::open(&settings.adapter)?;
+    let scale = scale(settings.size);
+    page.paragraph(format!(
+        "The paper's scene: a block of s × {0} × s grains is dropped in a cube of {1}³ voxels, each as wide as a \
+         grain{2}. The paper's figures are from its tables and text (GeForce 8800 GTX, Core 2 X6800); everything else \
+         was measured when this page was made.",
+        scale.cells / 2,
+        scale.cells,
+        match settings.size {
+            Size::Full => "",
+            Size::Small | Size::Tiny =>
+                "; the paper's cube has 128³ voxels, and `--size full` has them too. Here blocks and cube are smaller \
+                 by the same factor along each side",
+        },
+    ));
+    bench.describe(&mut page, scale.effort);
+    let drops = drops::run(&bench, &scale)?;
+    drops::table_1(&mut page, &drops);
+    let times = times::table_2(&mut page, &bench, &scale, &drops)?;
+    times::table_3(&mut page);
+    construction::figure_5(&mut page, &scale, &drops, &times)?;
+    drops::figure_6(&mut page, &drops[1])?;
+    pictures::figure_2(&mut page, &bench, &drops[1])?;
+    pictures::figure_7(&mut page, &bench, &drops)?;
+    large::figure_8(&mut page, &bench, &scale)?;
+    shapes::shapes(&mut page, &bench, &scale, &drops[1])?;
+    page.finish()
+}

@@ -1,0 +1,182 @@
+//! Tables 2 and 3: construction and whole steps, fixed grid against sliced grid and all others.
+
+use super::drops::Drop;
+use super::{PAPER, Scale};
+use crate::error::Result;
+use crate::output::plot::Bars;
+use crate::study::bench::{Bench, Entry, Outcome, grid_names, progress};
+use crate::study::page::{Cell, Page, Table};
+use crate::study::scenes;
+
+/// The paper's fixed grid and its sliced grid.
+const FIXED: &str = "uniform-pool";
+const SLICED: &str = "sliced-pool";
+
+/// Outcomes of every grid for each drop, with the grid's name.
+pub type AllTimes = Vec<Vec<(String, Outcome)>>;
+
+/// Times of every grid, from the same scene's first state. Grids that the scene's checks refuse tell why.
+pub fn of_all_grids(bench: &Bench, scale: &Scale, scene: &crate::scene::Scene) -> Vec<(String, Outcome)> {
+    let mut entries = Vec::new();
+    let mut refused = Vec::new();
+    for name in grid_names() {
+        match scenes::with_grid(scene, &name) {
+            Ok(scene) => entries.push(Entry { name, scene }),
+            Err(error) => refused.push((name, Err(error.to_string().replace('\n', " ")))),
+        }
+    }
+    let outcomes = bench.measure(&entries, scale.effort);
+    let names = entries.into_iter().map(|entry| entry.name);
+    names.zip(outcomes).chain(refused).collect()
+}
+
+pub fn table_2(page: &mut Page, bench: &Bench, scale: &Scale, drops: &[Drop]) -> Result<AllTimes> {
+    page.heading("Table 2: construction and whole steps of grains");
+    page.paragraph(
+        "Each drop's state when its sliced grid is widest, stepped on with every grid. In the paper both grids are \
+         pools of four indices a voxel: our `uniform-pool` and `sliced-pool`.",
+    );
+    let times: AllTimes = drops
+        .iter()
+        .map(|drop| {
+            progress(&format!(
+                "harada: times of all grids, {} grains",
+                drop.scene.capacity
+            ));
+            of_all_grids(bench, scale, &drop.at(&drop.widest))
+        })
+        .collect();
+
+    let mut table = Table::new([
+        "grains, paper",
+        "construction ratio, paper",
+        "step ratio, paper",
+        "grains, ours",
+        "construction, fixed, ms",
+        "construction, sliced, ms",
+        "construction ratio",
+        "step, fixed, ms",
+        "step, sliced, ms",
+        "step ratio",
+    ]);
+    for ((drop, paper), times) in drops.iter().zip(&PAPER).zip(&times) {
+        let find = |name: &str| {
+            times
+                .iter()
+                .find(|(grid, _)| grid == name)
+                .and_then(|(_, o)| o.as_ref().ok())
+        };
+        let (fixed, sliced) = (find(FIXED), find(SLICED));
+        let both = fixed.zip(sliced);
+        table.row([
+            Cell::count(paper.grains),
+            Cell::number(paper.build[1] / paper.build[0]),
+            Cell::number(paper.step[1] / paper.step[0]),
+            Cell::count(drop.scene.capacity.into()),
+            Cell::maybe(fixed.map(|t| t.build_ms)),
+            Cell::maybe(sliced.map(|t| t.build_ms)),
+            Cell::maybe(both.map(|(f, s)| s.build_ms / f.build_ms)),
+            Cell::maybe(fixed.map(|t| t.step_ms)),
+            Cell::maybe(sliced.map(|t| t.step_ms)),
+            Cell::maybe(both.map(|(f, s)| s.step_ms / f.step_ms)),
+        ]);
+    }
+    page.table("table_2", &table);
+    page.paragraph("Every grid, milliseconds of construction / of a whole step:");
+    page.table("table_2_all", &every_grid(drops, &times));
+
+    let there = |name: &str| {
+        times
+            .iter()
+            .all(|one| one.iter().any(|(n, o)| n == name && o.is_ok()))
+    };
+    let names: Vec<String> = grid_names().into_iter().filter(|name| there(name)).collect();
+    let mut chart = Bars::new(
+        "One step, by grid",
+        "ms",
+        names.clone().into_iter().map(|n| n.replace('-', "\n")),
+    )
+    .size(1400, 600)
+    .log_y();
+    for (drop, times) in drops.iter().zip(&times) {
+        let value = |name: &String| {
+            let found = times.iter().find(|(n, _)| n == name);
+            found
+                .and_then(|(_, o)| o.as_ref().ok())
+                .map_or(f64::NAN, |t| t.step_ms)
+        };
+        chart = chart.series(format!("{} grains", drop.scene.capacity), names.iter().map(value));
+    }
+    page.picture("harada_table_2.png", "Whole steps with every grid.", |path| {
+        chart.save(path)
+    })?;
+    Ok(times)
+}
+
+fn every_grid(drops: &[Drop], times: &AllTimes) -> Table {
+    let mut heads = vec!["grid".to_owned()];
+    for drop in drops {
+        let grains = drop.scene.capacity;
+        heads.push(format!("{grains}: construction"));
+        heads.push(format!("{grains}: step"));
+    }
+    heads.push("remark".into());
+    let mut table = Table::new(heads);
+    for (k, (name, _)) in times[0].iter().enumerate() {
+        let outcomes: Vec<&Outcome> = times.iter().map(|one| &one[k].1).collect();
+        let mut row = vec![Cell::text(format!("`{name}`"))];
+        for outcome in &outcomes {
+            let times = outcome.as_ref().ok();
+            row.push(Cell::maybe(times.map(|t| t.build_ms)));
+            row.push(Cell::maybe(times.map(|t| t.step_ms)));
+        }
+        let remark = outcomes.iter().find_map(|o| o.as_ref().err());
+        row.push(remark.map_or(Cell::Nothing, Cell::text));
+        table.row(row);
+    }
+    table
+}
+
+/// Fluids are not there yet; what the table says of memory is arithmetic.
+pub fn table_3(page: &mut Page) {
+    page.heading("Table 3: fluids");
+    page.paragraph(
+        "Sliceflow simulates grains only, so the steps of the paper's fluids have nothing beside them. Its memory: \
+         256³ voxels with four indices of four bytes each are 256 MiB as a uniform pool; with the sliced grid the paper \
+         needed at most 15 MB for 1,048,576 particles.",
+    );
+    let mut table = Table::new([
+        "particles",
+        "paper, fixed, ms",
+        "paper, sliced, ms",
+        "ratio",
+        "ours",
+    ]);
+    for (particles, fixed, sliced) in [
+        (65_536, 60.9, 53.1),
+        (262_144, 280.5, 231.3),
+        (589_824, 685.9, 567.9),
+        (1_048_576, 1160.9, 1070.3),
+    ] {
+        table.row([
+            Cell::count(particles),
+            Cell::number(fixed),
+            Cell::number(sliced),
+            Cell::number(sliced / fixed),
+            Cell::text("not run: no fluids"),
+        ]);
+    }
+    page.table("table_3", &table);
+    let mut table = Table::new(["256³ voxels", "paper", "computed"]);
+    table.row([
+        Cell::text("uniform pool"),
+        Cell::text("256 MB"),
+        Cell::bytes(256 * 256 * 256 * 16),
+    ]);
+    table.row([
+        Cell::text("sliced pool, 1,048,576 particles"),
+        Cell::text("at most 15 MB"),
+        Cell::Nothing,
+    ]);
+    page.table("table_3_memory", &table);
+}

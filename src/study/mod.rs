@@ -1,0 +1,36 @@
+//! Studies: what the papers measured, measured again, on one page each.
+
+mod bench;
+mod cpu_grid;
+mod green;
+mod harada;
+mod page;
+mod scenes;
+
+use std::path::PathBuf;
+
+pub use green::green;
+pub use harada::harada;
+
+use crate::gpu::AdapterChoice;
+
+/// How much is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Size {
+    /// Seconds; for tests.
+    Tiny,
+    /// Minutes on two cores.
+    Small,
+    /// The papers' own sizes.
+    Full,
+}
+
+/// What a study is told.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    pub size: Size,
+    pub folder: PathBuf,
+    /// Replaces an earlier study.
+    pub force: bool,
+    pub adapter: AdapterChoice,
+}

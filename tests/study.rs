@@ -1,0 +1,153 @@
+//! Studies write a page, its pictures and the same figures as JSON. Times are not asserted.
+
+use std::path::Path;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn study(paper: &str, folder: &Path) -> Command {
+    let mut command = Command::cargo_bin("sliceflow").expect("the program is built");
+    command
+        .args(["study", paper, "--size", "tiny", "--out"])
+        .arg(folder);
+    command
+}
+
+/// The page's text and its JSON, after the study ran.
+fn run(paper: &str, folder: &Path) -> (String, Value) {
+    let output = study(paper, folder).output().expect("it starts");
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    let page = folder.join(format!("{paper}.md"));
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(said.trim(), page.display().to_string());
+    let json = std::fs::read_to_string(folder.join(format!("{paper}.json"))).expect("JSON");
+    (
+        std::fs::read_to_string(page).expect("a page"),
+        serde_json::from_str(&json).expect("valid JSON"),
+    )
+}
+
+/// Cells of a row of a Markdown table.
+fn cells(line: &str) -> Vec<String> {
+    let inside = line.trim_start_matches("| ").trim_end_matches(" |");
+    inside
+        .replace("\\|", "\u{1}")
+        .split(" | ")
+        .map(|cell| cell.replace('\u{1}', "|"))
+        .collect()
+}
+
+/// Whether a cell shows a JSON value.
+fn agrees(cell: &str, value: &Value) -> bool {
+    match value {
+        Value::Null => cell == "–",
+        Value::String(text) => cell == text.replace('\n', " "),
+        Value::Number(number) => {
+            let number = number.as_f64().expect("finite");
+            let (digits, unit) = cell.split_once(' ').unwrap_or((cell, ""));
+            let factor = match unit {
+                "" | "B" => 1.0,
+                "KiB" => 1024.0,
+                "MiB" => 1024.0 * 1024.0,
+                "GiB" => 1024.0 * 1024.0 * 1024.0,
+                other => panic!("unit `{other}` of `{cell}`"),
+            };
+            let shown: f64 = digits.replace(',', "").parse().expect(cell);
+            (shown * factor - number).abs() <= 0.06 * number.abs().max(factor.min(1e-5))
+        }
+        other => panic!("{other}"),
+    }
+}
+
+/// Every table of the JSON stands in the page with the same figures, and every picture exists.
+fn check(folder: &Path, page: &str, json: &Value) {
+    let lines: Vec<&str> = page.lines().collect();
+    let mut tables = 0;
+    for (key, rows) in json.as_object().expect("an object") {
+        let Some(rows) = rows
+            .as_array()
+            .filter(|rows| rows.first().is_some_and(Value::is_object))
+        else {
+            continue;
+        };
+        tables += 1;
+        let heads: Vec<&str> = rows[0]
+            .as_object()
+            .expect("a row")
+            .keys()
+            .map(String::as_str)
+            .collect();
+        let head = format!("| {} |", heads.join(" | "));
+        let found = lines.iter().enumerate().filter(|(_, line)| **line == head);
+        let same = found.into_iter().any(|(at, _)| {
+            rows.iter().zip(&lines[at + 2..]).all(|(row, line)| {
+                let values = row.as_object().expect("a row").values();
+                let cells = cells(line);
+                cells.len() == values.len()
+                    && cells.iter().zip(values).all(|(cell, value)| agrees(cell, value))
+            })
+        });
+        assert!(same, "table `{key}` differs from the page");
+    }
+    assert!(tables >= 3, "{tables} tables");
+    let mut pictures = 0;
+    for link in page.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+        let (width, height) = image::image_dimensions(folder.join(link)).expect(link);
+        assert!(width > 100 && height > 100, "{link}");
+        pictures += 1;
+    }
+    assert!(pictures >= 2, "{pictures} pictures");
+}
+
+#[test]
+fn green_has_a_page_with_the_same_figures_as_its_json() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (page, json) = run("green", folder.path());
+    check(folder.path(), &page, &json);
+    // The paper's figures stand beside ours.
+    let rates: Vec<f64> = json["frames_per_second"]
+        .as_array()
+        .expect("rates")
+        .iter()
+        .filter_map(|row| row["frames a second"].as_f64())
+        .collect();
+    assert_eq!(rates[..2], [175.0, 460.0]);
+    assert!(
+        rates.len() > 3 && rates.iter().all(|&rate| rate > 0.0),
+        "{rates:?}"
+    );
+
+    let again = study("green", folder.path()).output().expect("it starts");
+    assert_eq!(again.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&again.stderr).contains("--force"));
+}
+
+#[test]
+fn harada_has_a_page_with_the_same_figures_as_its_json() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (page, json) = run("harada", folder.path());
+    check(folder.path(), &page, &json);
+    let ratios: Vec<f64> = json["table_1"]
+        .as_array()
+        .expect("rows")
+        .iter()
+        .map(|row| row["paper"].as_f64().expect("a ratio"))
+        .collect();
+    assert_eq!(ratios, [0.0394, 0.0619, 0.269, 0.488]);
+    // The octree never has more leaves than a grid has voxels, except where a grid's voxels are leaves too.
+    for row in json["figure_6"].as_array().expect("rows") {
+        let leaves = row["octree's leaves"].as_f64().expect("leaves");
+        for (grid, voxels) in row.as_object().expect("a row").iter().skip(2) {
+            assert!(voxels.as_f64().expect("voxels") >= leaves, "{grid}: {row}");
+        }
+    }
+    // At full size four million grains, and less than the paper's bytes for both of its grids.
+    let large = json["figure_8_memory"].as_array().expect("rows");
+    let bytes = |name: &str| {
+        let row = large.iter().find(|row| row["addressing"] == name).expect(name);
+        row["four indices a voxel"].as_f64().expect("bytes")
+    };
+    assert_eq!(bytes("`uniform`"), 700.0 * 700.0 * 256.0 * 16.0);
+    assert!(bytes("`sliced`") < 0.15e9 && bytes("`sliced`") > 0.02e9);
+}
