@@ -101,11 +101,11 @@ impl Bench {
             "A pass is timed by the device's timestamps."
         };
         page.paragraph(format!(
-            "Times are medians of {} rounds. In each round every grid of a table has its turn (from the first to the \
+            "Times are medians of {}. In each round every grid of a table has its turn (from the first to the \
              last, then from the last to the first), so that whatever else the machine does hits all alike. A step's \
              time is the wall time of {} steps in one submission; construction is the sum of the search's passes, each \
              timed alone. Single rounds on a shared machine differ by a factor of two and more: compare within a table.",
-            effort.rounds, effort.steps
+            rounds(effort.rounds), effort.steps
         ));
         page.paragraph(clock);
         page.value(
@@ -303,20 +303,23 @@ pub fn with_steps_per_frame(scene: &Scene, steps: u32) -> Scene {
     scene
 }
 
+/// `1 round`, `7 rounds`
+pub fn rounds(count: u32) -> String {
+    if count == 1 {
+        "1 round".into()
+    } else {
+        format!("{count} rounds")
+    }
+}
+
 /// Tells on standard error what is under way.
 pub fn progress(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");
 }
 
-/// An error without its mend, for a table.
-fn first_line(error: &crate::error::Error) -> String {
-    let text = error.to_string();
-    let lines: Vec<_> = text
-        .lines()
-        .map(str::trim)
-        .filter(|line| !line.starts_with("mend:"))
-        .collect();
-    lines.join(" ")
+/// What an error says first, for a table.
+pub fn first_line(error: &crate::error::Error) -> String {
+    error.to_string().lines().next().unwrap_or_default().to_owned()
 }
 
 /// A frame's particles in local coordinates.

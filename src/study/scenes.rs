@@ -56,7 +56,7 @@ pub fn dropped_block(cells: u32, columns: u32, layers: u32, seconds: f64, fps: f
     parse(&file)
 }
 
-/// A scene of `file` with these grains (local coordinates) in place of its bodies.
+/// A scene of `file` with these grains (in the scene's own coordinates) in place of its bodies.
 pub fn with_particles(file: &Value, particles: Particles) -> Result<Scene> {
     let mut file = file.clone();
     // One grain, which is replaced.
@@ -64,7 +64,16 @@ pub fn with_particles(file: &Value, particles: Particles) -> Result<Scene> {
         .map(|axis| file["domain"]["max"][axis].as_f64().unwrap_or(1.0) / 2.0)
         .to_vec();
     file["bodies"] = json!([{ "shape": { "kind": "sphere", "center": middle, "radius": 1.5 * RADIUS } }]);
-    Ok(replaced(&parse(&file)?, particles))
+    let scene = parse(&file)?;
+    let origin = scene.origin.as_vec3();
+    let position = particles.position.iter().map(|&p| p - origin).collect();
+    Ok(replaced(
+        &scene,
+        Particles {
+            position,
+            ..particles
+        },
+    ))
 }
 
 /// The scene with other grains at its start.
@@ -164,6 +173,17 @@ mod tests {
         assert_eq!(scene.capacity, 2048);
         let widest = scene.domain.max - scene.domain.min;
         assert!((widest - 0.64).abs().max_element() < 1e-6);
+    }
+
+    #[test]
+    fn placed_grains_lie_in_the_domain() {
+        let scene = with_particles(&base("tank", [12; 3]), lattice([12; 3], |_| true)).unwrap();
+        assert_eq!(scene.capacity, 12 * 12 * 12);
+        let reach = Vec3::splat(0.97 * RADIUS as f32);
+        for &position in &scene.particles.position {
+            let inside = position.cmpge(scene.domain.min + reach) & position.cmple(scene.domain.max - reach);
+            assert!(inside.all(), "{position}");
+        }
     }
 
     #[test]

@@ -5,6 +5,7 @@ use super::{PAPER, Paper, Scale};
 use crate::error::Result;
 use crate::neighbors::ADDRESSINGS;
 use crate::output::plot::Plot;
+use crate::output::text::count;
 use crate::scene::model::Addressing;
 use crate::scene::{Particles, Scene};
 use crate::study::bench::{Bench, grid_names, progress};
@@ -70,7 +71,10 @@ pub fn run(bench: &Bench, scale: &Scale) -> Result<Vec<Drop>> {
 
 fn drop_block(bench: &Bench, scale: &Scale, paper: &'static Paper, columns: u32) -> Result<Drop> {
     let scene = scenes::dropped_block(scale.cells, columns, scale.cells / 2, scale.seconds, scale.fps)?;
-    progress(&format!("harada: a block of {} grains drops", scene.capacity));
+    progress(&format!(
+        "harada: a block of {} grains drops",
+        count(scene.capacity.into())
+    ));
     let sliced = sliced();
     let mut moments = Vec::new();
     let mut domain_voxels = 0;
@@ -157,7 +161,7 @@ pub fn figure_6(page: &mut Page, drop: &Drop) -> Result<()> {
         "The second drop of Table 1 ({} grains), every frame. An octree's leaves are the voxels that hold particles; \
          where memory is given to all eight children of a node at once, it needs more. The paper ends with 6.25 % for \
          the sliced grid and 3.24 % for the octree.",
-        drop.scene.capacity
+        count(drop.scene.capacity.into())
     ));
     let percent = |voxels: u64| 100.0 * voxels as f64 / drop.domain_voxels as f64;
     let uniform = |k: &usize| drop.moments.iter().any(|m| m.voxels[*k] < drop.domain_voxels);

@@ -6,9 +6,10 @@ use super::Scale;
 use super::memory::Memory;
 use crate::error::Result;
 use crate::neighbors::ADDRESSINGS;
+use crate::output::text::count;
 use crate::plan::{Plan, Wanted};
 use crate::scene::{Particles, Scene};
-use crate::study::bench::{Bench, Effort, Entry, grid_names, progress};
+use crate::study::bench::{Bench, Effort, Entry, first_line, grid_names, progress, rounds};
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
 
@@ -60,9 +61,9 @@ pub fn figure_8(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
         );
     }
     page.paragraph(format!(
-        "Steps on this adapter (medians of {} rounds of {} steps). A grid that does not fit is refused by the plan with \
+        "Steps on this adapter (medians of {} of {} steps). A grid that does not fit is refused by the plan with \
          the bytes that it would need.",
-        effort.rounds, effort.steps
+        rounds(effort.rounds), effort.steps
     ));
     page.table("figure_8_times", &table);
     Ok(())
@@ -75,8 +76,8 @@ fn memory(page: &mut Page, scene: &Scene) {
     page.paragraph(format!(
         "{} grains lie in hills on the floor of {} × {} × {} voxels. Counted on the host from the particles, at full size. \
          The paper, with about four million particles: about 2 GB for a uniform grid, which it could not run, and about \
-         150 MB for the sliced one, at four indices of four bytes a voxel.",
-        position.len(),
+         150 MB for the sliced one, at four indices of four bytes a voxel; it does not tell how its particles lay.",
+        count(position.len() as u64),
         AREA[0],
         AREA[2],
         AREA[1]
@@ -127,7 +128,7 @@ fn run(table: &mut Table, bench: &Bench, name: &str, scene: &Scene, effort: Effo
                     effort,
                 )
                 .remove(0),
-            Err(error) => Err(error.to_string().lines().next().unwrap_or_default().to_owned()),
+            Err(error) => Err(first_line(&error)),
         };
         let times = outcome.as_ref().ok();
         table.row([

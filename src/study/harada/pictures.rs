@@ -2,6 +2,7 @@
 
 use super::drops::{Drop, State};
 use crate::error::Result;
+use crate::output::text::count;
 use crate::output::{encode_png, write_file};
 use crate::scene::Scene;
 use crate::scene::model::View;
@@ -37,7 +38,11 @@ pub fn figure_2(page: &mut Page, bench: &Bench, drop: &Drop) -> Result<()> {
     );
     progress("harada: pictures");
     for (k, state) in [&drop.first, &drop.widest, &drop.last].into_iter().enumerate() {
-        let caption = format!("{} grains at {:.3} s.", drop.scene.capacity, state.time);
+        let caption = format!(
+            "{} grains at {:.3} s.",
+            count(drop.scene.capacity.into()),
+            state.time
+        );
         let file = format!("harada_figure_2_{}.png", ["first", "widest", "last"][k]);
         picture(page, bench, &drop.at(state), View::Scene, &file, &caption)?;
     }
@@ -59,7 +64,8 @@ pub fn figure_7(page: &mut Page, bench: &Bench, drops: &[Drop]) -> Result<()> {
         scene.render.size = [1280, 720];
         let caption = format!(
             "{} grains at {:.3} s, and the pool.",
-            drop.scene.capacity, state.time
+            count(drop.scene.capacity.into()),
+            state.time
         );
         picture(
             page,

@@ -8,6 +8,7 @@ use super::memory::Memory;
 use super::times::of_all_grids;
 use crate::error::Result;
 use crate::output::plot::Bars;
+use crate::output::text::count;
 use crate::scene::{Particles, Scene};
 use crate::study::bench::{Bench, Times, progress};
 use crate::study::page::{Cell, Page, Table};
@@ -64,7 +65,10 @@ pub fn shapes(page: &mut Page, bench: &Bench, scale: &Scale, splash: &Drop) -> R
     ]);
     let mut shares: Vec<(String, Vec<f64>)> = Vec::new();
     for (name, scene) in &scenes {
-        progress(&format!("harada: {name}, {} grains", scene.capacity));
+        progress(&format!(
+            "harada: {name}, {} grains",
+            count(scene.capacity.into())
+        ));
         let memory = Memory::of(scene, &scene.particles.position);
         for (grid, outcome) in of_all_grids(bench, scale, scene) {
             let one = memory.allocation(&grid);

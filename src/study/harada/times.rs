@@ -2,9 +2,10 @@
 
 use super::drops::Drop;
 use super::{PAPER, Scale};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::output::plot::Bars;
-use crate::study::bench::{Bench, Entry, Outcome, grid_names, progress};
+use crate::output::text::count;
+use crate::study::bench::{Bench, Entry, Outcome, first_line, grid_names, progress};
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
 
@@ -22,12 +23,24 @@ pub fn of_all_grids(bench: &Bench, scale: &Scale, scene: &crate::scene::Scene) -
     for name in grid_names() {
         match scenes::with_grid(scene, &name) {
             Ok(scene) => entries.push(Entry { name, scene }),
-            Err(error) => refused.push((name, Err(error.to_string().replace('\n', " ")))),
+            Err(error) => refused.push((name, Err(refusal(&error)))),
         }
     }
     let outcomes = bench.measure(&entries, scale.effort);
     let names = entries.into_iter().map(|entry| entry.name);
     names.zip(outcomes).chain(refused).collect()
+}
+
+/// Why a scene's checks refuse a grid: the problem, without file and place.
+fn refusal(error: &Error) -> String {
+    match error {
+        Error::Scene { problems, .. } => problems
+            .iter()
+            .map(|p| p.what.clone())
+            .collect::<Vec<_>>()
+            .join("; "),
+        other => first_line(other),
+    }
 }
 
 pub fn table_2(page: &mut Page, bench: &Bench, scale: &Scale, drops: &[Drop]) -> Result<AllTimes> {
@@ -105,7 +118,10 @@ pub fn table_2(page: &mut Page, bench: &Bench, scale: &Scale, drops: &[Drop]) ->
                 .and_then(|(_, o)| o.as_ref().ok())
                 .map_or(f64::NAN, |t| t.step_ms)
         };
-        chart = chart.series(format!("{} grains", drop.scene.capacity), names.iter().map(value));
+        chart = chart.series(
+            format!("{} grains", count(drop.scene.capacity.into())),
+            names.iter().map(value),
+        );
     }
     page.picture("harada_table_2.png", "Whole steps with every grid.", |path| {
         chart.save(path)
@@ -116,7 +132,7 @@ pub fn table_2(page: &mut Page, bench: &Bench, scale: &Scale, drops: &[Drop]) ->
 fn every_grid(drops: &[Drop], times: &AllTimes) -> Table {
     let mut heads = vec!["grid".to_owned()];
     for drop in drops {
-        let grains = drop.scene.capacity;
+        let grains = count(drop.scene.capacity.into());
         heads.push(format!("{grains}: construction"));
         heads.push(format!("{grains}: step"));
     }
