@@ -199,6 +199,68 @@ impl Bench {
     }
 }
 
+/// A way to size the grid's buffers.
+pub struct Policy {
+    pub name: &'static str,
+    /// Its margin says how much room the buffers have.
+    pub scene: Scene,
+    /// Whether buffers are made anew, exactly as large as needed, after every step.
+    pub exactly: bool,
+}
+
+/// What a policy came to.
+pub struct Sized {
+    /// Median over turns of the wall time of a step.
+    pub step_ms: f64,
+    /// How often a search found too little room.
+    pub growths: u32,
+    pub pool_bytes: u64,
+}
+
+impl Bench {
+    /// Runs policies in turns of so many steps, each step a frame that is waited for.
+    pub fn compare(
+        &self,
+        policies: &[Policy],
+        turns: u32,
+        steps: u32,
+    ) -> Vec<std::result::Result<Sized, String>> {
+        let effort = Effort {
+            rounds: turns,
+            steps: 1,
+        };
+        let begin = |policy: &Policy| {
+            let entry = Entry {
+                name: policy.name.to_owned(),
+                scene: policy.scene.clone(),
+            };
+            Measured::new(self, &entry, effort)
+        };
+        let mut runs: Vec<Result<(Measured, u32)>> =
+            policies.iter().map(|policy| Ok((begin(policy)?, 0))).collect();
+        for _ in 0..turns {
+            for (run, policy) in runs.iter_mut().zip(policies) {
+                if let Ok((measured, growths)) = run
+                    && let Err(error) = measured.turn(steps, policy.exactly, growths)
+                {
+                    *run = Err(error);
+                }
+            }
+        }
+        let sized = |(measured, growths): (Measured, u32)| {
+            let pool = measured.simulation.buffers().get("index_pool", "(study)")?;
+            Ok(Sized {
+                pool_bytes: pool.size(),
+                growths,
+                step_ms: median(measured.step_ms),
+            })
+        };
+        runs.into_iter()
+            .map(|run| run.and_then(sized).map_err(|error| first_line(&error)))
+            .collect()
+    }
+}
+
 /// One entry's simulation and what it has shown so far.
 struct Measured {
     simulation: Simulation,
@@ -254,6 +316,21 @@ impl Measured {
                 None => self.passes.push((label, vec![ms])),
             }
         }
+        Ok(())
+    }
+
+    /// Steps one by one; the turn's time a step is kept.
+    fn turn(&mut self, steps: u32, exactly: bool, growths: &mut u32) -> Result<()> {
+        let start = Instant::now();
+        for _ in 0..steps {
+            let frame = self.frame()?;
+            *growths += frame.map_or(0, |frame| frame.growths);
+            if exactly {
+                self.simulation.resize_exactly()?;
+            }
+        }
+        self.step_ms
+            .push(start.elapsed().as_secs_f64() * 1e3 / f64::from(steps));
         Ok(())
     }
 

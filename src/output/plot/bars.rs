@@ -70,7 +70,9 @@ impl Bars {
         let mut canvas = Canvas::new(self.size);
         let values = || self.series.iter().flat_map(|(_, values)| values.iter().copied());
         let marked = self.marks.iter().map(|(value, _)| *value);
-        let y_axis = Axis::covering(values().chain(marked), self.scale, true);
+        // On a log axis the lowest bar has a height too.
+        let below = values().map(|value| value / 2.0);
+        let y_axis = Axis::covering(values().chain(marked).chain(below), self.scale, true);
         let x_axis = Axis::covering([0.0, 1.0], Scale::Linear, true);
         let hidden = values()
             .filter(|v| v.is_finite() && !has_place(*v, self.scale))

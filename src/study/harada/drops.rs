@@ -64,13 +64,14 @@ fn sliced() -> usize {
 pub fn run(bench: &Bench, scale: &Scale) -> Result<Vec<Drop>> {
     PAPER
         .iter()
-        .zip(scale.columns)
-        .map(|(paper, columns)| drop_block(bench, scale, paper, columns))
+        .enumerate()
+        .map(|(k, paper)| drop_block(bench, scale, paper, k))
         .collect()
 }
 
-fn drop_block(bench: &Bench, scale: &Scale, paper: &'static Paper, columns: u32) -> Result<Drop> {
-    let scene = scenes::dropped_block(scale.cells, columns, scale.cells / 2, scale.seconds, scale.fps)?;
+fn drop_block(bench: &Bench, scale: &Scale, paper: &'static Paper, k: usize) -> Result<Drop> {
+    let (columns, seconds) = (scale.columns[k], scale.seconds[k]);
+    let scene = scenes::dropped_block(scale.cells, columns, scale.cells / 2, seconds, scale.fps)?;
     progress(&format!(
         "harada: a block of {} grains drops",
         count(scene.capacity.into())
@@ -83,6 +84,8 @@ fn drop_block(bench: &Bench, scale: &Scale, paper: &'static Paper, columns: u32)
     bench.run(&scene, |time, particles| {
         let memory = Memory::of(&scene, &particles.position);
         let voxels = memory.voxels();
+        let octree_leaves = memory.octree.leaves;
+        domain_voxels = memory.domain_voxels;
         last = State { time, particles };
         if moments.is_empty() {
             first = last.clone();
@@ -91,11 +94,10 @@ fn drop_block(bench: &Bench, scale: &Scale, paper: &'static Paper, columns: u32)
             most = voxels[sliced];
             widest = last.clone();
         }
-        domain_voxels = memory.domain_voxels;
         moments.push(Moment {
             time,
             voxels,
-            octree_leaves: memory.octree.leaves,
+            octree_leaves,
         });
     })?;
     Ok(Drop {

@@ -3,29 +3,33 @@
 use glam::Vec3;
 
 use crate::neighbors::occupancy::{Allocation, Census, Octree};
-use crate::neighbors::{ADDRESSINGS, Grid, STORAGES};
-use crate::scene::{Neighbors, Scene};
+use crate::neighbors::{ADDRESSINGS, STORAGES};
+use crate::scene::{Neighbors, Particles, Scene};
 use crate::study::bench::grid_names;
 
 /// A state's voxels.
-pub struct Memory {
-    pub particles: u32,
-    /// Of the whole domain.
-    pub domain_voxels: u64,
+pub struct Memory<'a> {
+    /// Without its particles.
+    scene: Scene,
+    positions: &'a [Vec3],
     pub octree: Octree,
-    census: Census,
-    neighbors: Neighbors,
+    /// Voxels of the whole domain.
+    pub domain_voxels: u64,
 }
 
-impl Memory {
-    pub fn of(scene: &Scene, positions: &[Vec3]) -> Self {
-        let census = Census::of(scene, &Grid::new(scene), positions);
+impl<'a> Memory<'a> {
+    pub fn of(scene: &Scene, positions: &'a [Vec3]) -> Self {
+        let scene = Scene {
+            capacity: positions.len() as u32,
+            particles: Particles::default(),
+            ..scene.clone()
+        };
+        let census = Census::of(&scene, positions);
         Self {
-            particles: census.particles,
-            domain_voxels: u64::from(census.grid.capacity),
             octree: census.octree(),
-            neighbors: scene.neighbors,
-            census,
+            domain_voxels: census.grid.domain_voxels(),
+            scene,
+            positions,
         }
     }
 
@@ -36,15 +40,19 @@ impl Memory {
     }
 
     pub fn allocation(&self, grid: &str) -> Allocation {
-        Allocation::of(&self.census, &self.choice(grid))
+        let scene = Scene {
+            neighbors: self.choice(grid),
+            ..self.scene.clone()
+        };
+        Allocation::of(&scene, &Census::of(&scene, self.positions))
     }
 
-    /// Bytes of an octree's leaves and nodes where each leaf keeps what a voxel keeps.
+    /// Bytes of an octree's leaves, and of leaves and nodes, where each leaf keeps what a voxel keeps.
     pub fn octree_bytes(&self, storage: &str) -> [u64; 2] {
         let choice = self.choice(&format!("uniform-{storage}"));
         [
-            self.octree.leaf_bytes(&choice, self.particles),
-            self.octree.bytes(&choice, self.particles),
+            self.octree.leaf_bytes(&choice, self.scene.capacity),
+            self.octree.bytes(&choice, self.scene.capacity),
         ]
     }
 
@@ -60,7 +68,7 @@ impl Memory {
         Neighbors {
             addressing: addressing.kind,
             storage: storage.kind,
-            ..self.neighbors
+            ..self.scene.neighbors
         }
     }
 }

@@ -21,7 +21,9 @@ fn picture(
     file: &str,
     caption: &str,
 ) -> Result<()> {
-    let scene = scenes::with_grid(scene, SLICED)?;
+    let mut scene = scenes::with_grid(scene, SLICED)?;
+    // It would tell the time since this state.
+    scene.render.show.caption = false;
     match bench.picture(&scene, view)? {
         Some(picture) => page.picture(file, caption, |path| {
             write_file(path, &encode_png(picture, path)?)
