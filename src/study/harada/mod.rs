@@ -74,6 +74,8 @@ struct Scale {
     cpu_rounds: u32,
     /// The paper's large area has 700 × 256 × 700 voxels; ours that runs is so many times smaller along each side.
     large_divisor: u32,
+    /// The same for what is only counted.
+    area_divisor: u32,
     /// Steps of each policy of sizing the pool.
     resizing_steps: u32,
 }
@@ -88,6 +90,7 @@ fn scale(size: Size) -> Scale {
             effort: Effort { rounds: 1, steps: 2 },
             cpu_rounds: 3,
             large_divisor: 16,
+            area_divisor: 16,
             resizing_steps: 20,
         },
         Size::Small => Scale {
@@ -98,6 +101,7 @@ fn scale(size: Size) -> Scale {
             effort: Effort { rounds: 3, steps: 4 },
             cpu_rounds: 15,
             large_divisor: 4,
+            area_divisor: 1,
             resizing_steps: 1200,
         },
         Size::Full => Scale {
@@ -111,6 +115,7 @@ fn scale(size: Size) -> Scale {
             },
             cpu_rounds: 31,
             large_divisor: 1,
+            area_divisor: 1,
             resizing_steps: 6000,
         },
     }
