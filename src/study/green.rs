@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::bench::{Bench, Effort, Entry, Outcome, Times, progress, with_steps_per_frame};
+use super::bench::{Bench, progress};
+use super::measure::{Effort, Entry, Outcome, Times, with_steps_per_frame};
 use super::page::{Cell, Page, Table};
 use super::scenes;
 use super::{Settings, Size};

@@ -4,6 +4,7 @@ mod bench;
 mod cpu_grid;
 mod green;
 mod harada;
+mod measure;
 mod page;
 mod scenes;
 

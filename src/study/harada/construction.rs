@@ -7,8 +7,9 @@ use super::drops::Drop;
 use super::times::AllTimes;
 use crate::error::Result;
 use crate::output::plot::Plot;
-use crate::study::bench::{median, progress};
+use crate::study::bench::progress;
 use crate::study::cpu_grid::{Addressing, CpuGrid, Storage};
+use crate::study::measure::median;
 use crate::study::page::{Cell, Page, Table};
 
 const GRIDS: [(&str, Addressing, Storage); 4] = [

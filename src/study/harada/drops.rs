@@ -235,7 +235,7 @@ fn bytes(page: &mut Page, drop: &Drop) {
                 Cell::count(one.voxels),
                 Cell::bytes(one.bytes),
                 Cell::bytes(one.bytes - one.particle_bytes),
-                Cell::count(one.overflow),
+                one.overflow.map_or(Cell::Nothing, Cell::count),
             ]);
         }
         for storage in ["pool", "counting"] {

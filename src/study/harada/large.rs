@@ -9,7 +9,8 @@ use crate::neighbors::ADDRESSINGS;
 use crate::output::text::count;
 use crate::plan::{Plan, Wanted};
 use crate::scene::Scene;
-use crate::study::bench::{Bench, Effort, Entry, first_line, grid_names, progress, rounds};
+use crate::study::bench::{Bench, first_line, grid_names, progress, rounds};
+use crate::study::measure::{Effort, Entry};
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
 

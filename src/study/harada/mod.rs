@@ -11,7 +11,8 @@ mod times;
 
 use std::path::PathBuf;
 
-use super::bench::{Bench, Effort};
+use super::bench::Bench;
+use super::measure::Effort;
 use super::page::Page;
 use super::{Settings, Size};
 use crate::error::Result;

@@ -3,7 +3,8 @@
 use super::drops::Drop;
 use crate::error::Result;
 use crate::output::text::count;
-use crate::study::bench::{Bench, Policy, Sized, progress};
+use crate::study::bench::{Bench, progress};
+use crate::study::measure::{Policy, Sized};
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
 

@@ -10,7 +10,8 @@ use crate::error::Result;
 use crate::output::plot::Bars;
 use crate::output::text::count;
 use crate::scene::{Particles, Scene};
-use crate::study::bench::{Bench, Times, progress};
+use crate::study::bench::{Bench, progress};
+use crate::study::measure::Times;
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
 

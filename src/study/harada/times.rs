@@ -5,7 +5,8 @@ use super::{PAPER, Scale};
 use crate::error::{Error, Result};
 use crate::output::plot::Bars;
 use crate::output::text::count;
-use crate::study::bench::{Bench, Entry, Outcome, first_line, grid_names, progress};
+use crate::study::bench::{Bench, first_line, grid_names, progress};
+use crate::study::measure::{Entry, Outcome};
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
 

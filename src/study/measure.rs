@@ -1,0 +1,272 @@
+//! Times of several grids side by side.
+
+use std::time::Instant;
+
+use super::bench::{Bench, first_line};
+use crate::error::Result;
+use crate::gpu::Gpu;
+use crate::plan::{Plan, Wanted};
+use crate::scene::Scene;
+use crate::scene::model::View;
+use crate::simulation::Simulation;
+use crate::simulation::frame::Frame;
+
+/// Milliseconds of a grid: medians over rounds that took turns with the other grids' rounds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Times {
+    /// Wall time of one step, many steps in one submission.
+    pub step_ms: f64,
+    /// Lowest and highest round.
+    pub spread_ms: [f64; 2],
+    /// Label and time of each pass of a step, each timed alone.
+    pub passes: Vec<(String, f64)>,
+    /// The sum of the search's passes.
+    pub build_ms: f64,
+}
+
+impl Times {
+    /// The sum of the passes that read the grid.
+    pub fn query_ms(&self) -> f64 {
+        self.passes.iter().map(|(_, ms)| ms).sum::<f64>() - self.build_ms
+    }
+}
+
+/// How often is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Effort {
+    pub rounds: u32,
+    /// Steps of a round.
+    pub steps: u32,
+}
+
+/// A scene and what it is called beside others.
+pub struct Entry {
+    pub name: String,
+    pub scene: Scene,
+}
+
+/// What an entry came to: times, or why there are none.
+pub type Outcome = std::result::Result<Times, String>;
+
+/// A way to size the grid's buffers.
+pub struct Policy {
+    pub name: &'static str,
+    /// Its margin says how much room the buffers have.
+    pub scene: Scene,
+    /// Whether buffers are made anew, exactly as large as needed, after every step.
+    pub exactly: bool,
+}
+
+/// What a policy came to.
+pub struct Sized {
+    /// Median over turns of the wall time of a step.
+    pub step_ms: f64,
+    /// How often a search found too little room.
+    pub growths: u32,
+    pub pool_bytes: u64,
+}
+
+impl Bench {
+    /// Times of all entries, round by round.
+    pub fn measure(&self, entries: &[Entry], effort: Effort) -> Vec<Outcome> {
+        let mut runs: Vec<_> = entries
+            .iter()
+            .map(|entry| Measured::new(self, entry, effort).map_err(|error| first_line(&error)))
+            .collect();
+        for round in 0..effort.rounds as usize {
+            let forwards = round % 2 == 0;
+            for turn in 0..runs.len() {
+                let index = if forwards { turn } else { runs.len() - 1 - turn };
+                if let Ok(run) = &mut runs[index]
+                    && let Err(error) = run.round(effort)
+                {
+                    runs[index] = Err(first_line(&error));
+                }
+            }
+        }
+        runs.into_iter().map(|run| run.map(Measured::times)).collect()
+    }
+
+    /// Runs policies in turns of so many steps, each step a frame that is waited for.
+    pub fn compare(
+        &self,
+        policies: &[Policy],
+        turns: u32,
+        steps: u32,
+    ) -> Vec<std::result::Result<Sized, String>> {
+        let effort = Effort {
+            rounds: turns,
+            steps: 1,
+        };
+        let begin = |policy: &Policy| {
+            let entry = Entry {
+                name: policy.name.to_owned(),
+                scene: policy.scene.clone(),
+            };
+            Measured::new(self, &entry, effort)
+        };
+        let mut runs: Vec<Result<(Measured, u32)>> =
+            policies.iter().map(|policy| Ok((begin(policy)?, 0))).collect();
+        for _ in 0..turns {
+            for (run, policy) in runs.iter_mut().zip(policies) {
+                if let Ok((measured, growths)) = run
+                    && let Err(error) = measured.turn(steps, policy.exactly, growths)
+                {
+                    *run = Err(error);
+                }
+            }
+        }
+        let sized = |(measured, growths): (Measured, u32)| {
+            let pool = measured.simulation.buffers().get("index_pool", "(study)")?;
+            Ok(Sized {
+                pool_bytes: pool.size(),
+                growths,
+                step_ms: median(measured.step_ms),
+            })
+        };
+        runs.into_iter()
+            .map(|run| run.and_then(sized).map_err(|error| first_line(&error)))
+            .collect()
+    }
+
+    /// Frames a second of a scene whose frames are single steps: drawn, with their pixels brought back.
+    pub fn frames_per_second(&self, scene: &Scene, frames: u32) -> Result<f64> {
+        let wanted = Wanted {
+            view: Some(View::Scene),
+            ..Default::default()
+        };
+        let mut simulation = self.simulation(scene, &wanted)?;
+        // The first frames compile the shaders.
+        for _ in 0..4 {
+            simulation.next_frame()?;
+        }
+        while simulation.finish_frame()?.is_some() {}
+        let start = Instant::now();
+        for _ in 0..frames {
+            simulation.next_frame()?;
+        }
+        while simulation.finish_frame()?.is_some() {}
+        Ok(f64::from(frames) / start.elapsed().as_secs_f64())
+    }
+}
+
+/// One entry's simulation and what it has shown so far.
+struct Measured {
+    simulation: Simulation,
+    search: Vec<String>,
+    step_ms: Vec<f64>,
+    passes: Vec<(String, Vec<f64>)>,
+}
+
+impl Measured {
+    fn new(bench: &Bench, entry: &Entry, effort: Effort) -> Result<Self> {
+        let scene = with_steps_per_frame(&entry.scene, effort.steps);
+        let gpu = Gpu::open(&bench.choice, false)?;
+        let plan = Plan::new(&scene, &gpu.limits, &Wanted::default())?;
+        let is_search = |shader: &str| shader.starts_with("cells/") || shader.starts_with("storage/");
+        let search = plan
+            .passes
+            .iter()
+            .filter(|row| is_search(&row.pass.shader))
+            .map(|row| row.pass.entry.clone())
+            .collect();
+        let mut measured = Self {
+            simulation: Simulation::new(gpu, &scene, &plan)?,
+            search,
+            step_ms: Vec::new(),
+            passes: Vec::new(),
+        };
+        // The first state, and the steps that compile the shaders.
+        measured.frame()?;
+        measured.frame()?;
+        Ok(measured)
+    }
+
+    /// Simulates a frame and waits for it.
+    fn frame(&mut self) -> Result<Option<Frame>> {
+        let mut last = self.simulation.next_frame()?;
+        while let Some(frame) = self.simulation.finish_frame()? {
+            last = Some(frame);
+        }
+        Ok(last)
+    }
+
+    fn round(&mut self, effort: Effort) -> Result<()> {
+        let start = Instant::now();
+        self.frame()?;
+        self.step_ms
+            .push(start.elapsed().as_secs_f64() * 1e3 / f64::from(effort.steps));
+        self.simulation.set_timings(true);
+        let timed = self.frame()?;
+        self.simulation.set_timings(false);
+        for (label, ms) in timed.into_iter().flat_map(|frame| frame.pass_ms) {
+            match self.passes.iter_mut().find(|(known, _)| *known == label) {
+                Some((_, times)) => times.push(ms),
+                None => self.passes.push((label, vec![ms])),
+            }
+        }
+        Ok(())
+    }
+
+    /// Steps one by one; the turn's time a step is kept.
+    fn turn(&mut self, steps: u32, exactly: bool, growths: &mut u32) -> Result<()> {
+        let start = Instant::now();
+        for _ in 0..steps {
+            let frame = self.frame()?;
+            *growths += frame.map_or(0, |frame| frame.growths);
+            if exactly {
+                self.simulation.resize_exactly()?;
+            }
+        }
+        self.step_ms
+            .push(start.elapsed().as_secs_f64() * 1e3 / f64::from(steps));
+        Ok(())
+    }
+
+    fn times(self) -> Times {
+        let passes: Vec<_> = self
+            .passes
+            .into_iter()
+            .map(|(label, times)| (label, median(times)))
+            .collect();
+        let build = passes.iter().filter(|(label, _)| self.search.contains(label));
+        let extreme =
+            |pick: fn(f64, f64) -> f64| self.step_ms.iter().copied().reduce(pick).unwrap_or(f64::NAN);
+        Times {
+            build_ms: build.map(|(_, ms)| ms).sum(),
+            spread_ms: [extreme(f64::min), extreme(f64::max)],
+            step_ms: median(self.step_ms),
+            passes,
+        }
+    }
+}
+
+/// The middle value, NaN of nothing.
+pub fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    match values.len() {
+        0 => f64::NAN,
+        n if n % 2 == 1 => values[n / 2],
+        n => (values[n / 2 - 1] + values[n / 2]) / 2.0,
+    }
+}
+
+/// The scene with frames of so many steps.
+pub fn with_steps_per_frame(scene: &Scene, steps: u32) -> Scene {
+    let mut scene = scene.clone();
+    scene.time.steps_per_frame = steps;
+    scene.time.fps = 1.0 / (f64::from(steps) * scene.time.step);
+    scene
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_is_in_the_middle() {
+        assert_eq!(median(vec![3.0, 1.0, 2.0]), 2.0);
+        assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), 2.5);
+        assert!(median(vec![]).is_nan());
+    }
+}
