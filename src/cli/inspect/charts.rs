@@ -19,21 +19,22 @@ pub fn slice_profile(found: &Found) -> Plot {
             .map(|slice| (f64::from(slice.at), of(slice) as f64))
             .collect::<Vec<_>>()
     };
-    let axis = ["x", "y", "z"][census.grid.axis as usize];
-    let mut plot = Plot::new(
-        format!("Slices of {}", title(found)),
-        format!("slice along {axis}, counted from the domain's lower side"),
-        "voxels, particles",
-    );
+    let mut lines = Lines::default();
     for (index, name) in addressings(found) {
         let one = &found.grids[index];
         if one.slices.is_some() {
             let voxels = |slice: &Slice| one.in_slice(slice.at).unwrap_or(0);
-            plot = plot.series(format!("{name}: voxels with memory"), along(&voxels));
+            lines.add(format!("voxels of {name}"), along(&voxels));
         }
     }
-    plot.series("occupied voxels", along(&|slice| slice.figures.occupied))
-        .series("particles", along(&|slice| slice.figures.particles))
+    lines.add("occupied voxels", along(&|slice| slice.figures.occupied));
+    lines.add("particles", along(&|slice| slice.figures.particles));
+    let axis = ["x", "y", "z"][census.grid.axis as usize];
+    lines.onto(Plot::new(
+        format!("Slices of {}", title(found)),
+        format!("slice along {axis}, counted from the domain's lower side"),
+        "voxels with memory, particles",
+    ))
 }
 
 /// Voxels over time, after Harada 2007, Figure 6.
@@ -44,19 +45,39 @@ pub fn over_time(found: &Found) -> Plot {
         let at = |i: usize| (samples[i].time, 100.0 * of(i) as f64 / domain);
         (0..samples.len()).map(at).collect::<Vec<_>>()
     };
-    let mut plot = Plot::new(
+    let mut lines = Lines::default();
+    for (index, name) in addressings(found) {
+        lines.add(name, share(&|i| samples[i].grids[index].0));
+    }
+    lines.add("octree, leaves and nodes", share(&|i| samples[i].octree.nodes()));
+    lines.add(
+        "occupied, the octree's leaves",
+        share(&|i| samples[i].octree.leaves),
+    );
+    lines.onto(Plot::new(
         format!("Voxels with memory, {}", found.subject.scene.name),
         "time, s",
         "% of the domain's voxels",
-    );
-    for (index, name) in addressings(found) {
-        plot = plot.series(name, share(&|i| samples[i].grids[index].0));
+    ))
+}
+
+/// Lines of a chart. Those that would hide each other are one line with both names.
+#[derive(Default)]
+struct Lines(Vec<(String, Vec<(f64, f64)>)>);
+
+impl Lines {
+    fn add(&mut self, name: impl Into<String>, points: Vec<(f64, f64)>) {
+        let name = name.into();
+        match self.0.iter_mut().find(|(_, known)| *known == points) {
+            Some((names, _)) => *names += &format!(" = {name}"),
+            None => self.0.push((name, points)),
+        }
     }
-    plot.series("octree, leaves and nodes", share(&|i| samples[i].octree.nodes()))
-        .series(
-            "occupied voxels (the octree's leaves)",
-            share(&|i| samples[i].octree.leaves),
-        )
+
+    fn onto(self, plot: Plot) -> Plot {
+        let add = |plot: Plot, (name, points)| plot.series(name, points);
+        self.0.into_iter().fold(plot, add)
+    }
 }
 
 fn title(found: &Found) -> String {
