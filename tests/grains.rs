@@ -18,7 +18,7 @@ fn wanted() -> Wanted {
     Wanted {
         statistics: true,
         columns,
-        view: None,
+        ..Default::default()
     }
 }
 
@@ -319,7 +319,7 @@ fn grains_rest_on_every_kind_of_obstacle() {
         let statistics = frame.statistics.unwrap();
         println!("{dimensions}D: {statistics:?}");
         assert!(statistics.max_overlap < 0.1, "{statistics:?}");
-        assert!(statistics.contacts > frame.particles.into());
+        assert!(statistics.contacts > u64::from(frame.particles));
         // No center inside an obstacle.
         let surfaces: Vec<_> = scene
             .colliders

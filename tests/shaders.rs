@@ -20,6 +20,7 @@ fn plans() -> Vec<Plan> {
             .filter(|c| c.source == Source::Measured)
             .collect(),
         view: None,
+        voxel_map: Some(64),
     };
     let mut plans = Vec::new();
     for dimensions in [2, 3] {

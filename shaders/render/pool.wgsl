@@ -2,7 +2,7 @@
 // square; black empty, red one, yellow two, white three, blue four and more, magenta where indices were lost.
 
 #import common/thread
-#import <storage>
+#import storage/fold
 
 struct PoolPanel {
     rectangle: vec4u, // of the panel in the frame: x, y, width, height
@@ -21,18 +21,6 @@ struct PoolPanel {
 var<uniform> pool_panel: PoolPanel;
 var<storage, read_write> frame_pixels: array<u32>;
 
-// Smallest side whose square holds `total` texels.
-fn side_of(total: u32) -> u32 {
-    var side = u32(sqrt(f32(total)));
-    if side * side < total {
-        side += 1u;
-    }
-    if side > 0u && (side - 1u) * (side - 1u) >= total {
-        side -= 1u;
-    }
-    return max(side, 1u);
-}
-
 fn color_of(count: u32) -> u32 {
     if count > SLOTS {
         return pool_panel.overflow;
@@ -46,27 +34,6 @@ fn color_of(count: u32) -> u32 {
     }
 }
 
-// A pixel of the square: whole texels where they fit, else the fullest of a block of voxels.
-fn pool_pixel(pixel: vec2u, room: u32) -> u32 {
-    let total = voxel_total();
-    let side = side_of(total);
-    let scale = max(room / side, 1u);
-    let block = (side + room - 1u) / room;
-    let texel = pixel / scale * block;
-    var fullest = 0u;
-    var found = false;
-    for (var y = texel.y; y < min(texel.y + block, side); y += 1u) {
-        for (var x = texel.x; x < min(texel.x + block, side); x += 1u) {
-            let voxel = y * side + x;
-            if voxel < total {
-                found = true;
-                fullest = max(fullest, occupancy(voxel));
-            }
-        }
-    }
-    return select(pool_panel.background, color_of(fullest), found);
-}
-
 @compute @workgroup_size(GROUP_SIZE)
 fn paint_pool(thread: Thread) {
     let item = item_index(thread);
@@ -78,7 +45,8 @@ fn paint_pool(thread: Thread) {
     let inside = at - pool_panel.square.xy; // wraps where outside
     var color = pool_panel.background;
     if inside.x < pool_panel.square.z && inside.y < pool_panel.square.z {
-        color = pool_pixel(inside, pool_panel.square.z);
+        let fullest = fullest_at(inside, pool_panel.square.z);
+        color = select(color_of(fullest), pool_panel.background, fullest == NO_VOXEL);
     }
     frame_pixels[at.y * pool_panel.frame_width + at.x] = color;
 }

@@ -5,6 +5,7 @@ mod grid;
 mod inspect;
 mod neighbors;
 mod plan;
+mod rerun_args;
 mod run;
 mod run_args;
 mod scene_args;

@@ -42,6 +42,7 @@ Examples:
   sliceflow run green_cube
   sliceflow run my_scene.json --out out/trial --frames 60 --size 1920x1080
   sliceflow run harada_figure_2 --view both --grid sliced-pool
+  sliceflow run harada_figure_2_small --rerun out/session.rrd
   sliceflow run column_2d --particles npy --columns position,velocity,id --no-pictures
   sliceflow run green_cube --set grains.restitution=0.9 --set 'gravity=[0,-1.62,0]' --force";
 

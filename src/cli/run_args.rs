@@ -1,5 +1,6 @@
 //! Arguments that `run` and `plan` share: the scene and what to write.
 
+use super::rerun_args::RerunArgs;
 use super::scene_args::{Choices, SceneArgs};
 use crate::error::Result;
 use crate::output::{DEFAULT_COLUMNS, Outputs, columns_named};
@@ -30,6 +31,8 @@ pub struct RunArgs {
     /// Measures nothing; the warning about overlapping grains needs it
     #[arg(long)]
     no_statistics: bool,
+    #[command(flatten)]
+    rerun: RerunArgs,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -57,6 +60,7 @@ impl RunArgs {
             pictures: !self.no_pictures,
             statistics: !self.no_statistics,
             particles,
+            rerun: self.rerun.settings(),
         })
     }
 }

@@ -4,6 +4,7 @@
 //! `candidate(slot)`. A row of [`ADDRESSINGS`] or [`STORAGES`] and its shader files are all that a new way needs.
 
 pub mod addressing;
+pub mod boxes;
 pub mod grid;
 pub mod layout;
 pub mod occupancy;

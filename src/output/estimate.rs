@@ -30,5 +30,9 @@ pub fn disk_bytes(scene: &Scene, outputs: &Outputs) -> u64 {
         })
         .sum();
     let particles = f64::from(scene.capacity) * row as f64;
-    (f64::from(scene.time.frames) * (picture + statistics + particles)) as u64
+    let recordings = outputs
+        .rerun
+        .as_ref()
+        .map_or(0, |rerun| rerun.disk_bytes(scene, outputs.pictures));
+    (f64::from(scene.time.frames) * (picture + statistics + particles)) as u64 + recordings
 }

@@ -2,6 +2,7 @@
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
@@ -15,6 +16,13 @@ pub fn listen() {
             }
         });
     });
+}
+
+/// Waits until somebody asks.
+pub fn wait() {
+    while !asked() {
+        std::thread::sleep(Duration::from_millis(100));
+    }
 }
 
 /// Whether the run should end.

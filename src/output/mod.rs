@@ -12,6 +12,7 @@ mod particles;
 pub mod plot;
 mod png;
 pub mod progress;
+pub mod rerun;
 mod run;
 mod statistics;
 mod tally;
@@ -39,4 +40,14 @@ pub trait Sink {
 
     /// Waits until every frame taken is on disk. Called once, also after a failure.
     fn finish(&mut self) -> Result<()>;
+
+    /// What went wrong without a reason to stop, since the last call.
+    fn warnings(&mut self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Where somebody may still be looking after the end, so that the program waits.
+    fn serving(&self) -> Option<String> {
+        None
+    }
 }

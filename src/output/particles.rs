@@ -36,16 +36,18 @@ pub fn columns_named<'a>(names: impl IntoIterator<Item = &'a str>) -> Result<Vec
     Ok(columns)
 }
 
-/// Writes every column that a frame brings along.
+/// Writes columns that a frame brings along.
 pub struct ParticleFiles {
     folder: Arc<Folder>,
+    columns: Vec<Column>,
     workers: Workers,
 }
 
 impl ParticleFiles {
-    pub fn new(folder: Arc<Folder>) -> Self {
+    pub fn new(folder: Arc<Folder>, columns: &[Column]) -> Self {
         Self {
             folder,
+            columns: columns.to_vec(),
             workers: Workers::new(1),
         }
     }
@@ -54,10 +56,11 @@ impl ParticleFiles {
 impl Sink for ParticleFiles {
     fn frame(&mut self, frame: &Arc<Frame>) -> Result<()> {
         let target = self.folder.particles(frame.index);
-        let frame = frame.clone();
+        let (frame, columns) = (frame.clone(), self.columns.clone());
         self.workers.submit(move || {
             std::fs::create_dir_all(&target).map_err(|reason| disk::failed(&target, "create", reason))?;
-            for column in &frame.columns {
+            let is_mine = |found: &&ColumnData| columns.iter().any(|column| column.name == found.name);
+            for column in frame.columns.iter().filter(is_mine) {
                 let path = target.join(column.name).with_extension("npy");
                 write(column, &path).map_err(|reason| disk::failed(&path, "write", reason))?;
             }

@@ -12,7 +12,7 @@ use super::progress::{self, Progress};
 use super::statistics::StatisticsFile;
 use super::tally::Tally;
 use super::text::{bytes, seconds, short};
-use super::{Sink, disk_bytes, interrupt};
+use super::{Sink, disk_bytes, interrupt, rerun};
 use crate::error::{Error, Result};
 use crate::gpu::device::describe;
 use crate::gpu::{AdapterChoice, Gpu};
@@ -30,16 +30,23 @@ pub struct Outputs {
     pub statistics: bool,
     /// Columns of particle files; empty for no files.
     pub particles: Vec<Column>,
+    /// Recordings for the Rerun viewer.
+    pub rerun: Option<rerun::Settings>,
 }
 
 impl Outputs {
     /// What these sinks need from the device.
     pub fn wanted(&self, scene: &Scene) -> Wanted {
-        Wanted {
+        let mut wanted = Wanted {
             statistics: self.statistics,
             columns: self.particles.clone(),
             view: self.pictures.then_some(scene.render.view),
+            ..Wanted::default()
+        };
+        if let Some(rerun) = &self.rerun {
+            rerun.want(scene, self.pictures, &mut wanted);
         }
+        wanted
     }
 
     fn files(&self, scene: &Scene) -> Vec<Files> {
@@ -79,7 +86,13 @@ impl Outputs {
         files
     }
 
-    fn sinks(&self, scene: &Scene, folder: &Arc<Folder>) -> Result<Vec<Box<dyn Sink>>> {
+    fn sinks(
+        &self,
+        scene: &Scene,
+        plan: &Plan,
+        folder: &Arc<Folder>,
+        progress: &Progress,
+    ) -> Result<Vec<Box<dyn Sink>>> {
         let mut sinks: Vec<Box<dyn Sink>> = Vec::new();
         if self.pictures {
             let overlay = Overlay::new(scene, scene.render.view)?;
@@ -89,7 +102,10 @@ impl Outputs {
             sinks.push(Box::new(StatisticsFile::create(folder.statistics())?));
         }
         if !self.particles.is_empty() {
-            sinks.push(Box::new(ParticleFiles::new(folder.clone())));
+            sinks.push(Box::new(ParticleFiles::new(folder.clone(), &self.particles)));
+        }
+        if let Some(rerun) = &self.rerun {
+            sinks.extend(rerun.sinks(scene, plan, self.pictures, progress)?);
         }
         Ok(sinks)
     }
@@ -112,6 +128,9 @@ pub struct Settings {
 
 /// Simulates a scene and writes what `settings` ask for.
 pub fn run(scene: &Scene, settings: &Settings) -> Result<()> {
+    if let Some(rerun) = &settings.outputs.rerun {
+        rerun.check(scene, settings.outputs.pictures, settings.force)?;
+    }
     let folder = Arc::new(Folder::open(&settings.folder, settings.force)?);
     let progress = Progress::new(settings.progress, scene.time.frames);
     let gpu = Gpu::open(&settings.adapter, false)?;
@@ -140,7 +159,7 @@ pub fn run(scene: &Scene, settings: &Settings) -> Result<()> {
     if let Some(told) = folder.clear()? {
         progress.note(&told);
     }
-    let sinks = settings.outputs.sinks(scene, &folder)?;
+    let sinks = settings.outputs.sinks(scene, &plan, &folder, &progress)?;
     let files = settings.outputs.files(scene);
     let mut manifest = Manifest::new(
         folder.manifest(),
@@ -165,6 +184,9 @@ pub fn run(scene: &Scene, settings: &Settings) -> Result<()> {
     let outcome = run.finish_sinks(simulated);
     run.tell_end(&folder, &outcome);
     let closed = manifest.close(run.tally, &outcome);
+    if outcome.is_ok() {
+        run.serve();
+    }
     outcome.and(closed)
 }
 
@@ -201,6 +223,7 @@ impl Run {
         for sink in &mut self.sinks {
             sink.frame(&frame)?;
         }
+        self.pass_warnings();
         self.tally.add(&frame);
         for (label, ms) in &frame.pass_ms {
             match self.pass_ms.iter_mut().find(|(known, _)| known == label) {
@@ -218,7 +241,24 @@ impl Run {
     /// The first thing that went wrong, while simulating or while writing.
     fn finish_sinks(&mut self, simulated: Result<()>) -> Result<()> {
         let finished: Vec<_> = self.sinks.iter_mut().map(|sink| sink.finish()).collect();
+        self.pass_warnings();
         finished.into_iter().fold(simulated, Result::and)
+    }
+
+    fn pass_warnings(&mut self) {
+        for warning in self.sinks.iter_mut().flat_map(|sink| sink.warnings()) {
+            self.progress.warn(&warning);
+        }
+    }
+
+    /// Keeps servers open until Ctrl-C.
+    fn serve(&self) {
+        let places: Vec<_> = self.sinks.iter().filter_map(|sink| sink.serving()).collect();
+        if !places.is_empty() {
+            self.progress
+                .note(&format!("still there until Ctrl-C: {}", places.join(", ")));
+            interrupt::wait();
+        }
     }
 
     fn tell_end(&mut self, folder: &Folder, outcome: &Result<()>) {

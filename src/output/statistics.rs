@@ -98,6 +98,11 @@ impl From<&Statistics> for Measured {
 }
 
 fn line(frame: &Frame) -> String {
+    Value::Object(figures(frame)).to_string()
+}
+
+/// A frame's figures by key; units are in the keys.
+pub fn figures(frame: &Frame) -> Map<String, Value> {
     let line = Line {
         frame: frame.index,
         time_s: frame.time,
@@ -109,7 +114,10 @@ fn line(frame: &Frame) -> String {
         measured: frame.statistics.as_ref().map(Measured::from),
         pass_ms: by_pass(&frame.pass_ms),
     };
-    serde_json::to_string(&line).expect("keys are text, and numbers that JSON lacks become null")
+    match serde_json::to_value(line) {
+        Ok(Value::Object(figures)) => figures,
+        _ => unreachable!("a struct becomes an object, and numbers that JSON lacks become null"),
+    }
 }
 
 /// Sums times of passes with the same label; the order is that of first appearance.

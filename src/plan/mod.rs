@@ -29,6 +29,8 @@ pub struct Wanted {
     pub columns: Vec<Column>,
     /// Pictures, and of what.
     pub view: Option<View>,
+    /// Where voxels are and how full, as boxes and as a square picture with so many texels a side.
+    pub voxel_map: Option<u32>,
 }
 
 /// When a pass runs.
@@ -145,6 +147,23 @@ impl Plan {
             let (more_buffers, more_passes) = statistics(scene);
             buffers.extend(more_buffers);
             passes.extend(more_passes.iter().map(row(Phase::Observe)));
+        }
+
+        if let Some(side) = wanted.voxel_map {
+            variant.constant("VOXEL_MAP_SIDE", side);
+            buffers.push(BufferPlan::storage(
+                "voxel_map",
+                u64::from(side) * u64::from(side),
+                4,
+                "how full the voxels are, as a picture",
+            ));
+            let pass = PassPlan::new(
+                "storage/map_voxels",
+                "map_voxels",
+                Items::Fixed(side * side),
+                "voxels in memory order, folded into a square",
+            );
+            passes.push(row(Phase::Observe)(&pass));
         }
 
         buffers.extend(pass_indices(&passes));

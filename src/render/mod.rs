@@ -21,6 +21,7 @@ pub mod ticks;
 use glam::Vec3;
 
 pub use camera::Sight;
+pub use colliders::{Vertices, triangles as collider_vertices};
 pub use layout::{Layout, PoolPlace, Rectangle};
 pub use look::POOL_COLORS;
 pub use needs::{DrawNeed, Needs, TextureNeed, needs};

@@ -15,7 +15,7 @@ pub struct PoolLegend {
     rows: Vec<(Rgb, String)>,
 }
 
-/// Side of the heatmap in voxels, voxels along a pixel's side; the same arithmetic as `shaders/render/pool.wgsl`.
+/// Side of the heatmap in voxels, voxels along a pixel's side; the same arithmetic as `shaders/storage/fold.wgsl`.
 pub fn folding(voxels: u32, room: u32) -> (u32, u32) {
     let mut side = f64::from(voxels).sqrt().ceil() as u32;
     side = side.max(1);

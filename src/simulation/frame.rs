@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
+use crate::neighbors::Grid;
+use crate::neighbors::boxes::{VoxelBox, boxes};
 use crate::physics::layout::{Occupancy, Overflow, Sums};
 use crate::plan::{Plan, has_buffer};
 use crate::scene::column::{Column, Source};
@@ -31,8 +33,18 @@ pub struct Frame {
     pub statistics: Option<Statistics>,
     /// In order of id.
     pub columns: Vec<ColumnData>,
+    pub voxels: Option<Voxels>,
     /// Label and milliseconds of the passes of one step and of the frame's own passes, where they were timed.
     pub pass_ms: Vec<(String, f64)>,
+}
+
+/// Where the search has voxels in memory, and how full they are.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Voxels {
+    pub boxes: Vec<VoxelBox>,
+    /// Particles a voxel in the order of memory, folded into a square; rows from the top, the fullest of a block where
+    /// there are more voxels than texels. `None` where there is no voxel.
+    pub map: Vec<Option<u32>>,
 }
 
 /// Figures over all grains and voxels.
@@ -71,6 +83,21 @@ impl Statistics {
             voxels_with: [one, two, three, four],
             voxels_with_more: more,
             overflow: overflow.now,
+        }
+    }
+}
+
+impl Voxels {
+    /// Of the bytes of `voxel_map` and of the addressing's record.
+    pub(super) fn new(scene: &Scene, grid: &Grid, map: &[u8], record: &[u8]) -> Self {
+        const NO_VOXEL: u32 = u32::MAX;
+        let counts: Vec<u32> = bytemuck::pod_collect_to_vec(map);
+        Self {
+            boxes: boxes(scene, grid, record),
+            map: counts
+                .into_iter()
+                .map(|count| (count != NO_VOXEL).then_some(count))
+                .collect(),
         }
     }
 }

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 use glam::Vec3;
 
-pub use frame::{ColumnData, Frame, Statistics, Values};
+pub use frame::{ColumnData, Frame, Statistics, Values, Voxels};
 pub use neighbor_lists::{NeighborCounts, NeighborLists, PairQuery};
 
 use crate::error::{Casualty, Error, Result};
@@ -19,6 +19,7 @@ use crate::gpu::pass::INDEX_STRIDE;
 use crate::gpu::readback::Ring;
 use crate::gpu::timing::Timer;
 use crate::gpu::{Buffers, Gpu};
+use crate::neighbors::{Grid, boxes};
 use crate::physics::collider::offset_at;
 use crate::physics::dem;
 use crate::physics::layout::{Clock, Guard, Occupancy, Overflow, Parameters, Sums};
@@ -68,6 +69,8 @@ struct Pending {
     quarantined: u32,
     growths: u32,
     pass_ms: Vec<(String, f64)>,
+    /// As it was; it may grow or turn before the frame arrives.
+    grid: Grid,
     /// Name and bytes of each part of the staging buffer, in order.
     parts: Vec<(&'static str, u64)>,
 }
@@ -385,6 +388,7 @@ impl Simulation {
             quarantined: self.quarantined,
             growths: std::mem::take(&mut self.growths),
             pass_ms,
+            grid: self.plan.grid,
             parts: parts.clone(),
         };
         let buffers = &self.buffers;
@@ -437,6 +441,10 @@ impl Simulation {
             };
             parts.push((name, bytes * u64::from(self.count)));
         }
+        if let Some(side) = self.plan.wanted.voxel_map {
+            parts.push(("voxel_map", 4 * u64::from(side) * u64::from(side)));
+            parts.extend(boxes::record(&self.scene, &self.plan.grid));
+        }
         if self.renderer.is_some() {
             parts.push(("frame_pixels", self.plan.picture_bytes));
         }
@@ -477,6 +485,11 @@ impl Simulation {
             pixels: by_name.get("frame_pixels").map(|pixels| pixels.to_vec()),
             statistics,
             columns: frame::columns(&self.scene, &self.plan, &by_name),
+            voxels: by_name.get("voxel_map").map(|map| {
+                let record = boxes::record(&self.scene, &pending.grid);
+                let record = record.map_or(&[][..], |(name, _)| by_name[name]);
+                Voxels::new(&self.scene, &pending.grid, map, record)
+            }),
             pass_ms: pending.pass_ms,
         })
     }

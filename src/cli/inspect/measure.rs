@@ -98,8 +98,8 @@ impl Measured {
 fn search(gpu: &Gpu, scene: &Scene, view: Option<View>) -> Result<Frame> {
     let wanted = Wanted {
         statistics: true,
-        columns: Vec::new(),
         view,
+        ..Wanted::default()
     };
     let plan = Plan::new(scene, &gpu.limits, &wanted)?;
     let mut simulation = Simulation::new(gpu.clone(), scene, &plan)?;
