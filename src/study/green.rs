@@ -16,9 +16,10 @@ use crate::scene::{Particles, Scene};
 const PAPER: [(&str, f64); 2] = [("GeForce GTX 280", 175.0), ("GeForce GTX 480", 460.0)];
 
 /// What the paper calls a way, and our name of the grid.
-const WAYS: [(&str, &str); 4] = [
+const WAYS: [(&str, &str); 5] = [
     ("atomics", "uniform-pool"),
     ("atomics, two passes (scan)", "uniform-counting"),
+    ("two passes along a Z-order curve", "morton-counting"),
     ("radix sort", "uniform-radix"),
     ("radix sort along a Z-order curve", "morton-radix"),
 ];
@@ -79,6 +80,7 @@ fn settled_bed(bench: &Bench, scale: &Scale) -> Result<Scene> {
     file["domain"]["restitution"] = 0.5.into();
     file["render"]["size"] = serde_json::json!([640, 480]);
     file["render"]["show"]["slices"] = false.into();
+    file["render"]["show"]["caption"] = false.into();
     file["render"]["camera"] = serde_json::json!({});
     // One grain a voxel in the lowest quarter.
     let scene = scenes::with_particles(&file, scenes::lattice([n, n / 4, n], |_| true))?;
