@@ -56,10 +56,10 @@ pub fn figure_7(page: &mut Page, bench: &Bench, drops: &[Drop]) -> Result<()> {
     page.paragraph(
         "Two scenes, each beside its pool, one texel a voxel in the order of memory. Black voxels are empty; red, yellow \
          and white ones hold one, two and three grains, as in the paper; other colors are ours. The paper's scenes are \
-         fluids; ours are a block that still falls, whose pool is nearly full, and one that has spread, with a surface \
+         fluids; ours are the largest block, whose pool is nearly full, and one that has spread, with a surface \
          that leaves voxels empty.",
     );
-    let dense: (&Drop, &State) = (&drops[3], &drops[3].first);
+    let dense: (&Drop, &State) = (&drops[3], &drops[3].widest);
     let spread: (&Drop, &State) = (&drops[1], &drops[1].widest);
     for (file, (drop, state)) in [("dense", dense), ("spread", spread)] {
         let mut scene = drop.at(state);
