@@ -85,7 +85,7 @@ impl Simulation {
     }
 
     /// Takes over a plan that differs in its grid only. What the search made is gone; particles stay.
-    fn rebuild(&mut self, plan: Plan) -> Result<()> {
+    pub(super) fn rebuild(&mut self, plan: Plan) -> Result<()> {
         let grid_turned = plan.grid.axis != self.plan.grid.axis;
         for buffer in &plan.buffers {
             let before = self.plan.buffers.iter().find(|b| b.name == buffer.name);

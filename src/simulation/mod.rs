@@ -6,6 +6,7 @@ mod neighbor_lists;
 mod particles;
 mod passes;
 mod segments;
+pub mod state;
 
 use std::collections::BTreeMap;
 
@@ -13,6 +14,7 @@ use glam::Vec3;
 
 pub use frame::{ColumnData, Frame, Statistics, Values, Voxels};
 pub use neighbor_lists::{NeighborCounts, NeighborLists, PairQuery};
+pub use state::State;
 
 use crate::error::{Casualty, Error, Result};
 use crate::gpu::pass::INDEX_STRIDE;
@@ -60,6 +62,8 @@ pub struct Simulation {
     growths: u32,
     /// Particles that the last search did not follow.
     quarantined: u32,
+    /// Frame and steps that a restored state began with.
+    restored: (u32, u32),
 }
 
 /// A frame on its way to the host.
@@ -103,6 +107,7 @@ impl Simulation {
             submitted: 0,
             growths: 0,
             quarantined: 0,
+            restored: (0, 0),
             scene: scene.clone(),
             plan: plan.clone(),
             gpu,
@@ -218,20 +223,25 @@ impl Simulation {
         if changed {
             self.write_parameters(self.scene.time.step)?;
         }
-        if self.plan.obstacles.moving {
-            let mut moved = self.plan.obstacles.colliders.clone();
-            for (collider, placed) in moved.iter_mut().zip(&self.scene.colliders) {
-                let from = offset_at(&placed.path, segment.start_time);
-                let to = offset_at(&placed.path, segment.end_time);
-                let velocity = (to - from) / (segment.end_time - segment.start_time) as f32;
-                collider.offset = [from.x, from.y, from.z, 0.0];
-                collider.velocity = [velocity.x, velocity.y, velocity.z, 0.0];
-            }
-            self.buffers.write(&self.gpu, "colliders", 0, &moved)?;
-            // The first field of `Clock`.
-            self.buffers.write(&self.gpu, "clock", 0, &[0u32])?;
+        self.place_obstacles(segment)
+    }
+
+    /// Sets moving obstacles on their way through a segment.
+    fn place_obstacles(&self, segment: &Segment) -> Result<()> {
+        if !self.plan.obstacles.moving {
+            return Ok(());
         }
-        Ok(())
+        let mut moved = self.plan.obstacles.colliders.clone();
+        for (collider, placed) in moved.iter_mut().zip(&self.scene.colliders) {
+            let from = offset_at(&placed.path, segment.start_time);
+            let to = offset_at(&placed.path, segment.end_time);
+            let velocity = (to - from) / (segment.end_time - segment.start_time) as f32;
+            collider.offset = [from.x, from.y, from.z, 0.0];
+            collider.velocity = [velocity.x, velocity.y, velocity.z, 0.0];
+        }
+        self.buffers.write(&self.gpu, "colliders", 0, &moved)?;
+        // The first field of `Clock`.
+        self.buffers.write(&self.gpu, "clock", 0, &[0u32])
     }
 
     /// Adds particles behind those that exist and searches neighbors anew, without moving anything.
@@ -520,10 +530,12 @@ impl Simulation {
                 ),
             ),
         };
+        let (frame, step) = self.restored;
+        let since = guard.step - step;
         Error::Guard(Box::new(Casualty {
-            frame: guard.step / time.steps_per_frame + 1,
+            frame: frame + since / time.steps_per_frame + 1,
             step: u64::from(guard.step),
-            time: f64::from(guard.step) * time.step,
+            time: f64::from(frame) / time.fps + f64::from(since) * time.step,
             id: guard.id,
             position: position.to_array(),
             velocity,

@@ -15,6 +15,15 @@ pub struct Segment {
     pub events_before: usize,
 }
 
+/// Events that have happened when a frame is made.
+pub fn happened(scene: &Scene, frame: u32) -> usize {
+    let Some(interval) = frame.checked_sub(1) else {
+        return 0;
+    };
+    let last = segments(scene, interval).pop();
+    last.map_or(0, |segment| segment.events_before)
+}
+
 /// The segments of the frame interval that begins at frame `interval`.
 pub fn segments(scene: &Scene, interval: u32) -> Vec<Segment> {
     let time = scene.time;

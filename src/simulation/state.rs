@@ -1,0 +1,246 @@
+//! A simulation's state between two frames: taken off the device, put back, and shown.
+//!
+//! The state is what the next step depends on and nothing else: the particles' buffers in the order of their slots
+//! (which decides the order of sums, and so the bits), the clock and the overflow counter. The search is a function of
+//! the positions, so it is made anew; gravity, contact law and obstacles are functions of the scene and the frame.
+
+use glam::{DVec3, Vec3};
+
+use super::segments::{happened, segments};
+use super::{Frame, Simulation};
+use crate::error::Result;
+use crate::gpu::readback;
+use crate::neighbors::Grid;
+use crate::physics::dem;
+use crate::physics::layout::{Clock, Overflow};
+use crate::plan::Plan;
+use crate::scene::model::Axis;
+use crate::scene::{Action, Dimensions, Scene};
+
+/// Buffers with one value a particle, and where the search takes them from.
+const PARTICLE_BUFFERS: [(&str, &str); 4] = [
+    ("position", "next_position"),
+    ("velocity", "next_velocity"),
+    ("acceleration", "next_acceleration"),
+    ("id", "next_id"),
+];
+
+/// What the step after a frame depends on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    pub frame: u32,
+    /// Particles that exist.
+    pub particles: u32,
+    pub dimensions: Dimensions,
+    /// Where local coordinates have their zero, in the scene's own coordinates, metres.
+    pub origin: DVec3,
+    /// Name and bytes of device buffers, in a fixed order.
+    pub buffers: Vec<(String, Vec<u8>)>,
+}
+
+impl State {
+    /// The state of particles 0, 1, 2, … at `position` (the scene's coordinates, metres) with `velocity` (m/s), as a
+    /// start for pictures and measures.
+    pub fn of_particles(scene: &Scene, frame: u32, position: &[DVec3], velocity: &[Vec3]) -> Self {
+        let local: Vec<Vec3> = position.iter().map(|&p| (p - scene.origin).as_vec3()).collect();
+        let ids: Vec<u32> = (0..position.len() as u32).collect();
+        Self {
+            frame,
+            particles: ids.len() as u32,
+            dimensions: scene.dimensions,
+            origin: scene.origin,
+            buffers: vec![
+                ("position".into(), pack(&local, scene.dimensions)),
+                ("velocity".into(), pack(velocity, scene.dimensions)),
+                ("id".into(), bytemuck::cast_slice(&ids).to_vec()),
+            ],
+        }
+    }
+
+    /// Bytes of a buffer, if the state has it.
+    pub fn buffer(&self, name: &str) -> Option<&[u8]> {
+        let found = self.buffers.iter().find(|(known, _)| known == name);
+        found.map(|(_, bytes)| bytes.as_slice())
+    }
+
+    /// A buffer of vectors, one a slot; z is 0 in 2D.
+    pub fn vectors(&self, name: &str) -> Option<Vec<Vec3>> {
+        let numbers: Vec<f32> = bytemuck::pod_collect_to_vec(self.buffer(name)?);
+        let stride = dem::packed_bytes(self.dimensions) as usize / size_of::<f32>();
+        let vector = |v: &[f32]| match self.dimensions {
+            Dimensions::Two => Vec3::new(v[0], v[1], 0.0),
+            Dimensions::Three => Vec3::new(v[0], v[1], v[2]),
+        };
+        Some(numbers.chunks_exact(stride).map(vector).collect())
+    }
+
+    /// Each slot's particle.
+    pub fn ids(&self) -> Vec<u32> {
+        bytemuck::pod_collect_to_vec(self.buffer("id").unwrap_or_default())
+    }
+
+    /// The same state in coordinates that have their zero at `origin`.
+    pub fn with_origin(mut self, origin: DVec3) -> Self {
+        let moved = self.origin - origin;
+        if let Some(positions) = self.vectors("position").filter(|_| moved != DVec3::ZERO) {
+            let shifted: Vec<Vec3> = positions
+                .iter()
+                .map(|p| (p.as_dvec3() + moved).as_vec3())
+                .collect();
+            let packed = pack(&shifted, self.dimensions);
+            let position = self.buffers.iter_mut().find(|(name, _)| name == "position");
+            position.expect("its vectors are there").1 = packed;
+        }
+        self.origin = origin;
+        self
+    }
+
+    /// Particles that the device must have room for when a run of `scene` goes on from here.
+    pub fn capacity(&self, scene: &Scene) -> u32 {
+        let later = &scene.schedule[happened(scene, self.frame)..];
+        let added: usize = later
+            .iter()
+            .map(|scheduled| match &scheduled.action {
+                Action::Add(particles) => particles.len(),
+                Action::SetParameters { .. } => 0,
+            })
+            .sum();
+        self.particles + added as u32
+    }
+}
+
+/// Bytes of a state with `particles` particles.
+pub fn state_bytes(scene: &Scene, particles: u32) -> u64 {
+    use crate::scene::model::Integrator;
+    let vectors = match scene.time.integrator {
+        Integrator::SymplecticEuler => 2,
+        Integrator::VelocityVerlet => 3,
+    };
+    u64::from(particles) * (vectors * dem::packed_bytes(scene.dimensions) + 4)
+}
+
+/// Vectors as `common/vector.wgsl` packs them.
+fn pack(vectors: &[Vec3], dimensions: Dimensions) -> Vec<u8> {
+    let numbers: Vec<f32> = match dimensions {
+        Dimensions::Two => vectors.iter().flat_map(|v| [v.x, v.y]).collect(),
+        Dimensions::Three => vectors.iter().flat_map(|v| [v.x, v.y, v.z, 0.0]).collect(),
+    };
+    bytemuck::cast_slice(&numbers).to_vec()
+}
+
+impl Simulation {
+    /// The frame that [`Simulation::next_frame`] makes next.
+    pub fn next_index(&self) -> u32 {
+        self.next_frame
+    }
+
+    /// The state after the frame made last; waits for the device. Receive every frame under way first
+    /// ([`Simulation::finish_frame`]), so that all of them are known to be sound.
+    pub fn save_state(&self) -> Result<State> {
+        let vector = dem::packed_bytes(self.scene.dimensions) as usize;
+        let count = self.count as usize;
+        let particles = PARTICLE_BUFFERS.map(|(name, _)| match name {
+            "id" => (name, 4 * count),
+            _ => (name, vector * count),
+        });
+        let counters = [
+            ("clock", Clock::LAYOUT.size),
+            ("overflow", Overflow::LAYOUT.size),
+            ("grid", Grid::LAYOUT.size),
+        ];
+        let mut buffers = Vec::new();
+        for (name, bytes) in particles.into_iter().chain(counters) {
+            if self.buffers.contains(name) {
+                let buffer = self.buffers.get(name, "(host)")?;
+                buffers.push((name.to_owned(), readback::read::<u8>(&self.gpu, buffer, bytes)?));
+            }
+        }
+        Ok(State {
+            frame: self.next_frame.saturating_sub(1),
+            particles: self.count,
+            dimensions: self.scene.dimensions,
+            origin: self.scene.origin,
+            buffers,
+        })
+    }
+
+    /// Puts a state back: [`Simulation::next_frame`] then makes the frame after it. The scene may be another one
+    /// than the state's, with the same number of dimensions and room for [`State::capacity`] particles.
+    pub fn restore(&mut self, state: &State) -> Result<()> {
+        self.next_frame = state.frame + 1;
+        self.count = state.particles;
+        self.happened = happened(&self.scene, state.frame);
+        self.gravity = self.scene.gravity;
+        self.contact = self.scene.grains.contact;
+        for scheduled in &self.scene.schedule[..self.happened] {
+            if let Action::SetParameters { gravity, contact } = &scheduled.action {
+                (self.gravity, self.contact) = (*gravity, *contact);
+            }
+        }
+        let interval = state.frame.checked_sub(1);
+        let last = interval.and_then(|interval| segments(&self.scene, interval).pop());
+        if let Some(last) = &last {
+            self.place_obstacles(last)?;
+        }
+        let steps = u64::from(state.frame) * u64::from(self.scene.time.steps_per_frame);
+        let mut clock = Clock {
+            step_in_segment: 0,
+            step: steps as u32,
+        };
+        if let Some(bytes) = state.buffer("clock") {
+            clock = bytemuck::pod_read_unaligned(bytes);
+        }
+        if let (true, Some(last)) = (self.plan.obstacles.moving, last) {
+            clock.step_in_segment = last.steps;
+        }
+        self.restored = (state.frame, clock.step);
+        self.submitted = u64::from(clock.step);
+        self.buffers.write(&self.gpu, "clock", 0, &[clock])?;
+        // The search puts every particle where it stood, since it keeps the order inside a voxel.
+        for (name, next) in PARTICLE_BUFFERS {
+            self.put(next, state.buffer(name))?;
+        }
+        self.take_grid(state)?;
+        if self.count > 0 {
+            self.write_parameters(0.0)?;
+            self.search()?;
+            self.settle()?;
+        }
+        // That the grid grew belongs to the frames before.
+        self.growths = 0;
+        // Accelerations belong to the velocities that the last step predicted, so the search cannot find them again.
+        for (name, _) in PARTICLE_BUFFERS {
+            self.put(name, state.buffer(name))?;
+        }
+        self.put("overflow", Some(bytemuck::bytes_of(&Overflow::default())))?;
+        self.put("overflow", state.buffer("overflow"))?;
+        self.write_parameters(self.scene.time.step)
+    }
+
+    /// Takes the room and the direction of the grid that the state was made with, so that it grows when that would
+    /// have grown; a scene whose voxels are others keeps its own.
+    fn take_grid(&mut self, state: &State) -> Result<()> {
+        let Some(grid) = state.buffer("grid").map(bytemuck::pod_read_unaligned::<Grid>) else {
+            return Ok(());
+        };
+        let axis = [Axis::X, Axis::Y, Axis::Z][grid.axis as usize];
+        if grid == self.plan.grid || Grid::new(&self.scene, axis).with_room(grid.room()) != grid {
+            return Ok(());
+        }
+        self.rebuild(Plan::with_grid(&self.scene, &self.gpu.limits, &self.plan.wanted, grid)?)
+    }
+
+    /// Has the present state observed and drawn once more, as frame `index`, and sends it on its way. Returns an older
+    /// frame when enough are under way.
+    pub fn show(&mut self, index: u32) -> Result<Option<Frame>> {
+        self.send_frame(index)
+    }
+
+    /// Writes bytes to the beginning of a buffer, where both are there.
+    fn put(&self, name: &str, bytes: Option<&[u8]>) -> Result<()> {
+        match bytes {
+            Some(bytes) if self.buffers.contains(name) => self.buffers.write(&self.gpu, name, 0, bytes),
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! A run that goes on from a state is the run that was never interrupted, to the bit.
+
+mod common;
+
+use sliceflow::output::columns_named;
+use sliceflow::plan::Wanted;
+use sliceflow::scene::Scene;
+use sliceflow::simulation::{Frame, Simulation, State};
+
+fn wanted() -> Wanted {
+    Wanted {
+        statistics: true,
+        columns: columns_named(["position", "velocity", "contacts", "pressure"]).expect("columns"),
+        view: None,
+    }
+}
+
+/// Frames up to `last`, and those under way.
+fn frames(simulation: &mut Simulation, last: u32) -> Vec<Frame> {
+    let mut frames = Vec::new();
+    while simulation.next_index() <= last {
+        frames.extend(simulation.next_frame().expect("a frame"));
+    }
+    while let Some(frame) = simulation.finish_frame().expect("a frame") {
+        frames.push(frame);
+    }
+    frames
+}
+
+fn assert_same(one: &[Frame], two: &[Frame], what: &str) {
+    assert_eq!(one.len(), two.len(), "{what}");
+    for (one, two) in one.iter().zip(two) {
+        let index = one.index;
+        assert_eq!(
+            (one.index, one.time, one.steps, one.particles, one.overflow),
+            (two.index, two.time, two.steps, two.particles, two.overflow),
+            "{what}"
+        );
+        assert_eq!(one.statistics, two.statistics, "{what}, frame {index}");
+        for (a, b) in one.columns.iter().zip(&two.columns) {
+            assert!(a == b, "{what}, frame {index}: {} differs", a.name);
+        }
+    }
+}
+
+/// Runs through and in two halves with the state between them; gives that state.
+fn halves(scene: &Scene, what: &str) -> State {
+    let (middle, last) = (3, 6);
+    let mut through = common::simulate(scene, &wanted());
+    let whole = frames(&mut through, last);
+
+    let mut first = common::simulate(scene, &wanted());
+    assert_same(&frames(&mut first, middle), &whole[..=middle as usize], what);
+    let state = first.save_state().expect("a state");
+    let mut second = common::simulate(scene, &wanted());
+    second.restore(&state).expect("restored");
+    assert!(
+        second.save_state().expect("a state") == state,
+        "{what}: restoring changes the state"
+    );
+    let shown = second.show(middle).expect("shown");
+    assert!(shown.is_none(), "the ring has room for it");
+    let rest = frames(&mut second, last);
+    assert_same(&rest, &whole[middle as usize..], what);
+    state
+}
+
+/// Two emitters' worth of grains, moving obstacles and changing gravity happen before and behind the middle.
+#[test]
+fn a_state_carries_everything_that_the_next_step_needs() {
+    for dimensions in [2, 3] {
+        for (grid, integrator) in [
+            (
+                ["neighbors.addressing=sliced", "neighbors.storage=counting"],
+                "symplectic_euler",
+            ),
+            (
+                ["neighbors.addressing=uniform", "neighbors.storage=pool"],
+                "velocity_verlet",
+            ),
+            (
+                ["neighbors.addressing=rows", "neighbors.storage=counting"],
+                "velocity_verlet",
+            ),
+        ] {
+            let integrator = format!("time.integrator={integrator}");
+            let z = if dimensions == 2 { "" } else { ",0" };
+            let events = format!(
+                r#"events=[{{"at":0.12,"set":{{"gravity":[2,-9{z}],"spring":2500}}}},
+                    {{"at":0.1,"drop":{{"center":[0.35,0.5{z}],"radius":0.09}}}},
+                    {{"at":0.23,"drop":{{"center":[-0.4,0.6{z}],"radius":0.09}}}}]"#
+            );
+            let emitters = format!(
+                r#"emitters=[{{"name":"tap","center":[0.35,0.2{z}],"velocity":[0,-1{z}],"radius":0.1}}]"#
+            );
+            let overrides = [
+                grid[0],
+                grid[1],
+                &integrator,
+                "neighbors.slots=2",
+                &events,
+                &emitters,
+            ];
+            let scene = common::scene(dimensions, &overrides);
+            let state = halves(&scene, &format!("{dimensions}D, {overrides:?}"));
+            assert_eq!(
+                state.buffer("acceleration").is_some(),
+                integrator.contains("verlet")
+            );
+        }
+    }
+}
