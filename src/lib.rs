@@ -26,8 +26,9 @@
 //! - `src/render/`: pictures from the simulation's own buffers: splats, colliders, slices, the pool's heatmap, legends.
 //! - `src/plan/`: scene + limits → every buffer and pass, with the reason for each. Needs no GPU.
 //! - `src/simulation/`: executes a plan: steps, frames, what comes back.
-//! - `src/output/`: sinks, each fed by bounded threads, and the run that drives them; recordings for the Rerun
-//!   viewer (`src/output/rerun.rs`).
+//! - `src/output/`: sinks, each fed by bounded threads, and the run that drives them (`src/output/drive.rs`); its
+//!   checkpoints, and how it goes on from them (`src/output/resume.rs`); recordings for the Rerun viewer
+//!   (`src/output/rerun.rs`).
 //! - `src/study/`: what the papers measured, measured again, a page each.
 //! - `src/cli/`: one file a command.
 //!

@@ -54,6 +54,7 @@ fn short_run<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
 fn help_has_examples() {
     for command in [
         "run",
+        "resume",
         "plan",
         "inspect",
         "neighbors",
@@ -206,7 +207,11 @@ fn fewer_outputs_need_less_disk() {
             .as_u64()
             .unwrap()
     };
-    assert_eq!(disk(&["--no-pictures", "--no-statistics"]), 0);
+    assert_eq!(
+        disk(&["--no-pictures", "--no-statistics", "--checkpoint-every", "0"]),
+        0
+    );
+    assert!(disk(&["--checkpoint-every", "0"]) < disk(&[]));
     assert!(disk(&["--no-pictures"]) < disk(&[]));
     assert!(disk(&[]) < disk(&["--particles", "npy"]));
 }
@@ -243,7 +248,7 @@ fn a_run_writes_frames_statistics_particles_and_a_manifest() {
     }
     assert_eq!(
         fs::read_dir(&out).unwrap().count(),
-        3 + 3 + 2,
+        3 + 3 + 3,
         "no frame too many, no partial file left"
     );
 
@@ -343,7 +348,7 @@ fn an_interrupted_run_keeps_its_frames_and_says_so() {
     let manifest = read_json(&folder.path().join("run.json"));
     assert_eq!(manifest["status"], "interrupted");
     let frames = manifest["frames_done"].as_u64().unwrap();
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count() as u64, frames + 2);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count() as u64, frames + 3);
     assert_eq!(
         fs::read_to_string(folder.path().join("stats.jsonl"))
             .unwrap()
@@ -573,7 +578,7 @@ fn two_runs_write_the_same_bytes() {
         sliceflow(&arguments).assert().success();
     }
     let (one, two) = (files(Path::new(&out("one"))), files(Path::new(&out("two"))));
-    assert_eq!(one.len(), 4 + 4 * 6 + 1, "{:?}", one.keys());
+    assert_eq!(one.len(), 4 + 4 * 6 + 2, "{:?}", one.keys());
     assert_eq!(one.keys().collect::<Vec<_>>(), two.keys().collect::<Vec<_>>());
     for (name, bytes) in &one {
         assert!(bytes == &two[name], "{name} differs");

@@ -1,11 +1,13 @@
 //! The command line: one file a command. Data goes to standard output, everything else to standard error.
 
+mod checkpoint_args;
 mod devices;
 mod grid;
 mod inspect;
 mod neighbors;
 mod plan;
 mod rerun_args;
+mod resume;
 mod run;
 mod run_args;
 mod scene_args;
@@ -32,11 +34,13 @@ Examples:
   sliceflow scenes                              what ships
   sliceflow run green_cube                      frames into out/green_cube
   sliceflow run green_cube --set grains.spring=2e5 --out out/stiff
+  sliceflow resume out/green_cube               goes on where it was stopped
   sliceflow plan green_cube                     what would run, and what it needs";
 
 #[derive(Subcommand)]
 enum Command {
     Run(run::Args),
+    Resume(resume::Args),
     Plan(plan::Args),
     Inspect(inspect::Args),
     Neighbors(neighbors::Args),
@@ -50,6 +54,7 @@ enum Command {
 pub fn main() -> Result<()> {
     match Cli::parse().command {
         Command::Run(args) => run::main(&args),
+        Command::Resume(args) => resume::main(&args),
         Command::Plan(args) => plan::main(&args),
         Command::Inspect(args) => inspect::main(&args),
         Command::Neighbors(args) => neighbors::main(&args),
@@ -57,6 +62,14 @@ pub fn main() -> Result<()> {
         Command::Schema(args) => schema::main(&args),
         Command::Devices(args) => devices::main(&args),
         Command::Study(args) => study::main(&args),
+    }
+}
+
+/// The arguments of `sliceflow run` in a command line that was recorded.
+fn run_args(command_line: &[String]) -> Option<run::Args> {
+    match Cli::try_parse_from(command_line).ok()?.command {
+        Command::Run(args) => Some(args),
+        _ => None,
     }
 }
 

@@ -12,7 +12,7 @@ use crate::error::Result;
 use crate::gpu::device::{self, Limits, describe};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::output::text::{bytes, count};
-use crate::output::{Outputs, disk_bytes};
+use crate::output::{Checkpoints, Outputs, checkpoint_estimate, disk_bytes};
 use crate::plan::{Phase, Plan};
 use crate::scene::Scene;
 
@@ -61,6 +61,9 @@ pub struct Report<'a> {
     adapter: Option<String>,
     limits: Limits,
     disk_bytes: u64,
+    checkpoints: Checkpoints,
+    /// How many stay at most, and the bytes of one.
+    checkpoint_estimate: (u32, u64),
 }
 
 impl<'a> Report<'a> {
@@ -77,6 +80,8 @@ impl<'a> Report<'a> {
             adapter,
             limits,
             disk_bytes: disk_bytes(scene, outputs),
+            checkpoints: outputs.checkpoints,
+            checkpoint_estimate: checkpoint_estimate(scene, outputs),
         })
     }
 
@@ -118,6 +123,8 @@ impl<'a> Report<'a> {
             "steps": self.steps(),
             "memory_bytes": self.plan.bytes(),
             "disk_bytes_estimate": self.disk_bytes,
+            "checkpoint_bytes": self.checkpoint_estimate.1,
+            "checkpoints_kept": self.checkpoint_estimate.0,
             "notes": scene.notes,
             "plan": self.plan,
         })
@@ -162,7 +169,18 @@ impl fmt::Display for Report<'_> {
             bytes(self.largest_buffer()),
             bytes(limits.binding)
         )?;
-        writeln!(f, "disk       about {}", bytes(self.disk_bytes))?;
+        let (stay, each) = self.checkpoint_estimate;
+        write!(f, "disk       about {}", bytes(self.disk_bytes))?;
+        if stay > 0 {
+            write!(
+                f,
+                ", with checkpoints of {} {} (the newest {} stay)",
+                bytes(each),
+                self.checkpoints.every,
+                count(stay.into())
+            )?;
+        }
+        writeln!(f)?;
 
         let mut buffers = Table::new([("buffer", Left), ("size", Right), ("why", Left)]);
         for buffer in &plan.buffers {

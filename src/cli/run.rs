@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use super::run_args::RunArgs;
 use super::{plan, stdout};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::gpu::AdapterChoice;
-use crate::output::{self, Settings, progress};
+use crate::output::{self, Outputs, Settings, progress};
 
 /// Simulates a scene and writes its frames
 ///
 /// Writes pictures (frame_000000.png …), statistics (stats.jsonl), particle files on request, and a manifest that says
-/// what everything is (run.json). Ctrl-C ends the run after the frames under way.
+/// what everything is (run.json). Ctrl-C ends the run after the frames under way; `sliceflow resume` goes on with it.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -74,6 +74,20 @@ pub fn main(args: &Args) -> Result<()> {
             command_line: std::env::args().collect(),
         },
     )
+}
+
+/// What a recorded `sliceflow run` writes, and whether it times passes.
+pub fn recorded(command_line: &[String]) -> Result<(Outputs, bool)> {
+    let args = super::run_args(command_line).ok_or_else(|| {
+        Error::usage(
+            format!(
+                "the run was started by another version: `{}`",
+                command_line.join(" ")
+            ),
+            "start a new run",
+        )
+    })?;
+    Ok((args.run.outputs()?, args.timings))
 }
 
 /// A scene's name as the name of a folder anywhere.

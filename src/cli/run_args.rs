@@ -1,9 +1,10 @@
 //! Arguments that `run` and `plan` share: the scene and what to write.
 
 use super::rerun_args::RerunArgs;
+use super::checkpoint_args::CheckpointArgs;
 use super::scene_args::{Choices, SceneArgs};
 use crate::error::Result;
-use crate::output::{DEFAULT_COLUMNS, Outputs, columns_named};
+use crate::output::{Checkpoints, DEFAULT_COLUMNS, Outputs, columns_named};
 use crate::scene::Scene;
 
 #[derive(clap::Args)]
@@ -33,6 +34,7 @@ pub struct RunArgs {
     no_statistics: bool,
     #[command(flatten)]
     rerun: RerunArgs,
+    checkpoints: CheckpointArgs,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -61,6 +63,7 @@ impl RunArgs {
             statistics: !self.no_statistics,
             particles,
             rerun: self.rerun.settings(),
+            checkpoints: self.checkpoints.or(Checkpoints::default()),
         })
     }
 }

@@ -94,7 +94,7 @@ impl SceneArgs {
 }
 
 /// Seconds whose frames, the first state included, are `frames` many.
-fn duration(frames: u32, fps: f64) -> f64 {
+pub fn duration(frames: u32, fps: f64) -> f64 {
     // One frame is the first state alone; a scene's duration is never zero.
     f64::from(frames.saturating_sub(1)).max(1e-3) / fps
 }

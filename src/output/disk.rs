@@ -1,7 +1,8 @@
 //! Writing files so that a reader never sees half of one.
 
 use std::ffi::OsString;
-use std::io::{self, ErrorKind};
+use std::fs::{File, OpenOptions};
+use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
@@ -16,6 +17,53 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
             let _ = std::fs::remove_file(&partial);
             failed(path, "write", reason)
         })
+}
+
+/// Writes a file that is whole or absent under its name, even after a power cut.
+pub fn write_durably(path: &Path, bytes: &[u8]) -> Result<()> {
+    let partial = partial(path);
+    let write = || {
+        let mut file = File::create(&partial)?;
+        file.write_all(bytes)?;
+        file.sync_all()?;
+        std::fs::rename(&partial, path)?;
+        sync_folder(path)
+    };
+    write().map_err(|reason| {
+        let _ = std::fs::remove_file(&partial);
+        failed(path, "write", reason)
+    })
+}
+
+/// Creates a folder in one that exists; a run's folder that was removed meanwhile is not made anew.
+pub fn create_folder(path: &Path) -> Result<()> {
+    match std::fs::create_dir(path) {
+        Err(reason) if reason.kind() != ErrorKind::AlreadyExists => Err(failed(path, "create", reason)),
+        _ => Ok(()),
+    }
+}
+
+/// Waits until a file, or a folder with all its files, is safe from a power cut.
+pub fn sync(path: &Path) -> Result<()> {
+    let sync = || {
+        if path.is_dir() {
+            for entry in std::fs::read_dir(path)? {
+                OpenOptions::new().write(true).open(entry?.path())?.sync_all()?;
+            }
+        } else {
+            OpenOptions::new().write(true).open(path)?.sync_all()?;
+        }
+        Ok(())
+    };
+    sync().map_err(|reason| failed(path, "save", reason))
+}
+
+/// Saves the names in the folder that a file is in. Only Unix lets a program do this; elsewhere renaming does it.
+pub fn sync_folder(path: &Path) -> io::Result<()> {
+    match path.parent() {
+        Some(folder) if cfg!(unix) && !folder.as_os_str().is_empty() => File::open(folder)?.sync_all(),
+        _ => Ok(()),
+    }
 }
 
 /// The error for something that a run could not do on disk.

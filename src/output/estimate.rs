@@ -1,13 +1,32 @@
 //! How much a run will write.
 
 use super::Outputs;
+use super::keeper::{Checkpoints, Every};
 use crate::scene::Scene;
 use crate::scene::column::VECTORS;
+use crate::simulation::state::state_bytes;
 
 /// Bytes that a pixel of a compressed picture takes, at most, in the scenes that ship.
 const PICTURE_BYTES_PER_PIXEL: f64 = 1.0;
 /// One line of `stats.jsonl`.
 const STATISTICS_BYTES: f64 = 700.0;
+
+/// Header and checksum of a checkpoint.
+const CHECKPOINT_BYTES: u64 = 1000;
+
+/// How many checkpoints a run leaves at most, and the bytes of one at the run's end.
+pub fn checkpoints(scene: &Scene, outputs: &Outputs) -> (u32, u64) {
+    let Checkpoints { every, keep } = outputs.checkpoints;
+    let made = match every {
+        Every::Never => 0,
+        Every::Frames(n) => (scene.time.frames - 1).div_ceil(n).max(1),
+        Every::Seconds(_) => scene.time.frames,
+    };
+    (
+        made.min(keep),
+        state_bytes(scene, scene.capacity) + CHECKPOINT_BYTES,
+    )
+}
 
 /// Bytes on disk when a run has written every frame; a guess for pictures, an upper bound for particle files.
 pub fn disk_bytes(scene: &Scene, outputs: &Outputs) -> u64 {
@@ -34,5 +53,8 @@ pub fn disk_bytes(scene: &Scene, outputs: &Outputs) -> u64 {
         .rerun
         .as_ref()
         .map_or(0, |rerun| rerun.disk_bytes(scene, outputs.pictures));
-    (f64::from(scene.time.frames) * (picture + statistics + particles)) as u64 + recordings
+    let (count, checkpoint) = checkpoints(scene, outputs);
+    // While the newest is written, the oldest is still there.
+    let checkpoints = u64::from(count) * checkpoint + if count > 0 { checkpoint } else { 0 };
+    (f64::from(scene.time.frames) * (picture + statistics + particles)) as u64 + recordings + checkpoints
 }

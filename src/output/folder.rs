@@ -8,10 +8,11 @@ use super::disk;
 use super::text::count;
 use crate::error::{Error, Result};
 
-/// A folder that exists and can be written.
+/// A folder that exists and can be written, by nobody else as long as this lives.
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
+    _lock: Option<fs::File>,
 }
 
 /// Files that a run writes, found before this one.
@@ -19,6 +20,7 @@ pub struct Folder {
 struct Earlier {
     pictures: Vec<PathBuf>,
     particles: Vec<PathBuf>,
+    checkpoints: Vec<PathBuf>,
     /// Manifest and statistics.
     records: Vec<PathBuf>,
 }
@@ -27,9 +29,7 @@ impl Folder {
     /// Creates the folder where it is missing. Refuses one that holds an earlier run, unless it may be replaced.
     pub fn open(path: &Path, replace: bool) -> Result<Self> {
         fs::create_dir_all(path).map_err(|reason| disk::failed(path, "create", reason))?;
-        let folder = Self {
-            path: path.to_owned(),
-        };
+        let folder = Self::existing(path)?;
         let earlier = folder.earlier()?;
         if !replace && !earlier.is_empty() {
             return Err(Error::usage(
@@ -37,6 +37,15 @@ impl Folder {
                 "replace it with --force, or choose another folder with --out",
             ));
         }
+        Ok(folder)
+    }
+
+    /// The folder of an earlier run, to write more into it.
+    pub fn existing(path: &Path) -> Result<Self> {
+        let folder = Self {
+            path: path.to_owned(),
+            _lock: lock(path)?,
+        };
         folder.try_writing()?;
         Ok(folder)
     }
@@ -68,7 +77,8 @@ impl Folder {
         if earlier.is_empty() {
             return Ok(None);
         }
-        for file in earlier.pictures.iter().chain(&earlier.records) {
+        let files = earlier.pictures.iter().chain(&earlier.checkpoints);
+        for file in files.chain(&earlier.records) {
             fs::remove_file(file).map_err(|reason| disk::failed(file, "remove", reason))?;
         }
         for folder in &earlier.particles {
@@ -90,6 +100,8 @@ impl Folder {
                 earlier.records.push(path);
             } else if is_numbered(&name, "frame_", ".png") {
                 earlier.pictures.push(path);
+            } else if is_numbered(&name, "checkpoint_", ".bin") {
+                earlier.checkpoints.push(path);
             } else if is_numbered(&name, "particles_", "") && path.is_dir() {
                 earlier.particles.push(path);
             }
@@ -107,7 +119,9 @@ impl Folder {
 
 impl Earlier {
     fn is_empty(&self) -> bool {
-        self.pictures.is_empty() && self.particles.is_empty() && self.records.is_empty()
+        [&self.pictures, &self.particles, &self.checkpoints, &self.records]
+            .iter()
+            .all(|files| files.is_empty())
     }
 }
 
@@ -120,8 +134,24 @@ impl std::fmt::Display for Earlier {
         let parts = counted(&self.pictures, "frames")
             .into_iter()
             .chain(counted(&self.particles, "folders of particle files"))
+            .chain(counted(&self.checkpoints, "checkpoints"))
             .chain(names.map(str::to_owned));
         f.write_str(&parts.collect::<Vec<_>>().join(", "))
+    }
+}
+
+/// Keeps other runs out of a folder until it is dropped. Where a system or file system cannot, there is no lock.
+fn lock(path: &Path) -> Result<Option<fs::File>> {
+    let Ok(file) = fs::File::open(path) else {
+        return Ok(None);
+    };
+    match file.try_lock() {
+        Ok(()) => Ok(Some(file)),
+        Err(fs::TryLockError::WouldBlock) => Err(Error::usage(
+            format!("another run is writing into {}", path.display()),
+            "wait for it or stop it, or choose another folder with --out",
+        )),
+        Err(fs::TryLockError::Error(_)) => Ok(None),
     }
 }
 

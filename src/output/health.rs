@@ -1,5 +1,7 @@
 //! Signs in the statistics that a run's numbers should not be trusted.
 
+use serde::{Deserialize, Serialize};
+
 use super::text::count;
 use crate::simulation::frame::Frame;
 
@@ -7,7 +9,7 @@ use crate::simulation::frame::Frame;
 const LARGEST_OVERLAP: f64 = 0.2;
 
 /// Notices each sign once, and sums up at the end.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Health {
     overflow: u64,
     overlap_told: bool,

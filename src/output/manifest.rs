@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
+use super::recipe::{Recipe, hex};
 use super::tally::Tally;
 use super::{clock, disk};
 use crate::error::{Error, Result};
@@ -40,6 +41,12 @@ pub struct Manifest<'a> {
     /// Of `scene`, as JSON without spaces.
     pub scene_sha256: String,
     pub scene: &'a SceneFile,
+    /// For `sliceflow resume`; absent where nothing was simulated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recipe: Option<Recipe>,
+    /// The run whose particles were drawn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drawn_from: Option<PathBuf>,
     pub plan: &'a Plan,
     #[serde(skip)]
     path: PathBuf,
@@ -88,11 +95,10 @@ impl<'a> Manifest<'a> {
             steps_per_frame: scene.time.steps_per_frame,
             step_limited_by: scene.time.limited_by,
             notes: &scene.notes,
-            scene_sha256: Sha256::digest(text)
-                .iter()
-                .map(|byte| format!("{byte:02x}"))
-                .collect(),
+            scene_sha256: hex(&Sha256::digest(text)),
             scene: &scene.file,
+            recipe: None,
+            drawn_from: None,
             plan,
             path,
         }
@@ -101,7 +107,13 @@ impl<'a> Manifest<'a> {
     pub fn write(&self) -> Result<()> {
         let mut text = serde_json::to_vec_pretty(self).expect("keys are text");
         text.push(b'\n');
-        disk::write(&self.path, &text)
+        disk::write_durably(&self.path, &text)
+    }
+
+    /// Writes how far the run has come.
+    pub fn update(&mut self, tally: Tally) -> Result<()> {
+        self.tally = tally;
+        self.write()
     }
 
     /// Writes how the run ended.

@@ -1,11 +1,14 @@
 //! What a run leaves behind. Each [`Sink`] turns finished frames into files; [`run()`] drives them.
 
+mod checkpoint;
 mod clock;
 mod disk;
+mod drive;
 mod estimate;
 mod folder;
 mod health;
 mod interrupt;
+mod keeper;
 mod manifest;
 pub mod npy;
 mod particles;
@@ -13,6 +16,9 @@ pub mod plot;
 mod png;
 pub mod progress;
 pub mod rerun;
+mod recipe;
+mod resume;
+mod rewind;
 mod run;
 mod statistics;
 mod tally;
@@ -22,10 +28,13 @@ mod workers;
 use std::sync::Arc;
 
 pub use disk::write as write_file;
-pub use estimate::disk_bytes;
+pub use estimate::{checkpoints as checkpoint_estimate, disk_bytes};
+pub use keeper::{Checkpoints, Every};
 pub use particles::{DEFAULT_COLUMNS, columns_named};
 pub use png::{compose as compose_picture, encode as encode_png};
 pub use progress::Progress;
+pub use recipe::Recorded;
+pub use resume::{branch, resume};
 pub use run::{Outputs, Settings, run};
 pub use tally::Tally;
 
@@ -37,6 +46,21 @@ pub trait Sink {
     /// Takes a frame; returns before it is on disk, or waits while too many are on their way there. An error may be
     /// that of an earlier frame.
     fn frame(&mut self, frame: &Arc<Frame>) -> Result<()>;
+
+    /// Called once, before the first frame, in a run that goes on: `frame` is the first that this sink gets, and the
+    /// folder holds nothing of it and of later ones. A sink that writes files of single frames, or that appends, has
+    /// nothing to do. One whose file cannot be appended to either makes it anew from what the folder holds of earlier
+    /// frames, or begins a second file and says so in a warning.
+    fn resume_from(&mut self, _frame: u32) -> Result<()> {
+        Ok(())
+    }
+
+    /// Waits until every frame taken is written, since a checkpoint is about to say so; more may follow. Files of
+    /// single frames are then saved from power cuts by [`folder::Folder::save`]. A sink whose output is none of the
+    /// run's folder has nothing to do.
+    fn flush(&mut self) -> Result<()> {
+        Ok(())
+    }
 
     /// Waits until every frame taken is on disk. Called once, also after a failure.
     fn finish(&mut self) -> Result<()>;

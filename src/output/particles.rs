@@ -58,7 +58,7 @@ impl Sink for ParticleFiles {
         let target = self.folder.particles(frame.index);
         let (frame, columns) = (frame.clone(), self.columns.clone());
         self.workers.submit(move || {
-            std::fs::create_dir_all(&target).map_err(|reason| disk::failed(&target, "create", reason))?;
+            disk::create_folder(&target)?;
             let is_mine = |found: &&ColumnData| columns.iter().any(|column| column.name == found.name);
             for column in frame.columns.iter().filter(is_mine) {
                 let path = target.join(column.name).with_extension("npy");
@@ -66,6 +66,10 @@ impl Sink for ParticleFiles {
             }
             Ok(())
         })
+    }
+
+    fn flush(&mut self) -> Result<()> {
+        self.workers.wait()
     }
 
     fn finish(&mut self) -> Result<()> {

@@ -48,6 +48,10 @@ impl Sink for Pictures {
         })
     }
 
+    fn flush(&mut self) -> Result<()> {
+        self.workers.wait()
+    }
+
     fn finish(&mut self) -> Result<()> {
         self.workers.finish()
     }

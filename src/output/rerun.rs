@@ -30,7 +30,7 @@ mod statics;
 mod target;
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Viewers and servers listen to this machine alone.
 pub const LOCALHOST: &str = "127.0.0.1";
@@ -60,6 +60,24 @@ pub enum Target {
     Spawn,
     /// A server with a viewer for browsers on this machine, which is started and ends with the run.
     Serve,
+}
+
+impl Settings {
+    /// For a run that begins with frame `frame`, of settings whose paths start from `folder`: nothing can be appended to
+    /// a recording, so the rest goes into a file of its own, `NAME_from_FRAME.rrd`.
+    pub fn part_from(&self, frame: u32, folder: &Path) -> Self {
+        let part = |target: &Target| match target {
+            Target::File(path) => {
+                let name = path.file_stem().unwrap_or_default().to_string_lossy();
+                Target::File(folder.join(path.with_file_name(format!("{name}_from_{frame}.rrd"))))
+            }
+            other => other.clone(),
+        };
+        Self {
+            targets: self.targets.iter().map(part).collect(),
+            budget: self.budget,
+        }
+    }
 }
 
 impl fmt::Display for Target {

@@ -3,25 +3,22 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::{Sink, rerun};
+use super::drive::{Launch, Start, drive};
 use super::folder::Folder;
-use super::health::Health;
-use super::manifest::{Files, Manifest};
+use super::keeper::{Checkpoints, Every};
+use super::manifest::Files;
 use super::particles::ParticleFiles;
 use super::png::Pictures;
 use super::progress::{self, Progress};
+use super::recipe::Recipe;
 use super::statistics::StatisticsFile;
-use super::tally::Tally;
-use super::text::{bytes, seconds, short};
-use super::{Sink, disk_bytes, interrupt, rerun};
-use crate::error::{Error, Result};
-use crate::gpu::device::describe;
-use crate::gpu::{AdapterChoice, Gpu};
+use crate::error::Result;
+use crate::gpu::AdapterChoice;
 use crate::plan::{Plan, Wanted};
 use crate::render::Overlay;
 use crate::scene::Scene;
 use crate::scene::column::Column;
-use crate::simulation::Simulation;
-use crate::simulation::frame::Frame;
 
 /// Which sinks a run has.
 #[derive(Debug, Clone)]
@@ -32,6 +29,7 @@ pub struct Outputs {
     pub particles: Vec<Column>,
     /// Recordings for the Rerun viewer.
     pub rerun: Option<rerun::Settings>,
+    pub checkpoints: Checkpoints,
 }
 
 impl Outputs {
@@ -49,7 +47,7 @@ impl Outputs {
         wanted
     }
 
-    fn files(&self, scene: &Scene) -> Vec<Files> {
+    pub(super) fn files(&self, scene: &Scene) -> Vec<Files> {
         let [width, height] = scene.render.size;
         let names: Vec<_> = self.particles.iter().map(|column| column.name).collect();
         let mut files = vec![Files {
@@ -83,10 +81,16 @@ impl Outputs {
                 about,
             });
         }
+        if self.checkpoints.every != Every::Never {
+            files.push(Files {
+                name: "checkpoint_NNNNNN.bin",
+                about: "state behind a frame, for `sliceflow resume`".into(),
+            });
+        }
         files
     }
 
-    fn sinks(
+    pub(super) fn sinks(
         &self,
         scene: &Scene,
         plan: &Plan,
@@ -99,7 +103,7 @@ impl Outputs {
             sinks.push(Box::new(Pictures::new(folder.clone(), overlay)));
         }
         if self.statistics {
-            sinks.push(Box::new(StatisticsFile::create(folder.statistics())?));
+            sinks.push(Box::new(StatisticsFile::open(folder.statistics())?));
         }
         if !self.particles.is_empty() {
             sinks.push(Box::new(ParticleFiles::new(folder.clone(), &self.particles)));
@@ -133,166 +137,14 @@ pub fn run(scene: &Scene, settings: &Settings) -> Result<()> {
     }
     let folder = Arc::new(Folder::open(&settings.folder, settings.force)?);
     let progress = Progress::new(settings.progress, scene.time.frames);
-    let gpu = Gpu::open(&settings.adapter, false)?;
-    if gpu.is_software() {
-        progress.warn(&format!(
-            "software adapter {} computes on the processor, which is slow",
-            describe(&gpu.adapter)
-        ));
-    }
-    if settings.timings && !gpu.has_timestamps {
-        progress.warn("this adapter cannot time passes, so --timings has no effect");
-    }
-    let plan = Plan::new(scene, &gpu.limits, &settings.outputs.wanted(scene))?;
-    for note in scene.notes.iter().chain(&plan.notes) {
-        progress.note(note);
-    }
-    progress.note(&format!(
-        "{} frames, about {} in {}",
-        scene.time.frames,
-        bytes(disk_bytes(scene, &settings.outputs)),
-        folder.path().display()
-    ));
-    let mut simulation = Simulation::new(gpu, scene, &plan)?;
-    simulation.set_timings(settings.timings);
-
-    if let Some(told) = folder.clear()? {
-        progress.note(&told);
-    }
-    let sinks = settings.outputs.sinks(scene, &plan, &folder, &progress)?;
-    let files = settings.outputs.files(scene);
-    let mut manifest = Manifest::new(
-        folder.manifest(),
+    let recipe = Recipe::new(scene, &settings.command_line)?;
+    drive(Launch {
         scene,
-        &plan,
-        simulation.gpu(),
-        &settings.command_line,
-        files,
-    );
-    manifest.write()?;
-
-    interrupt::listen();
-    let mut run = Run {
-        sinks,
+        settings,
+        folder,
         progress,
-        health: Health::default(),
-        tally: Tally::start(scene.time.frames),
-        pass_ms: Vec::new(),
-    };
-    let simulated = run.simulate(&mut simulation);
-    // Sinks are finished in any case: frames before a failure stay.
-    let outcome = run.finish_sinks(simulated);
-    run.tell_end(&folder, &outcome);
-    let closed = manifest.close(run.tally, &outcome);
-    if outcome.is_ok() {
-        run.serve();
-    }
-    outcome.and(closed)
-}
-
-struct Run {
-    sinks: Vec<Box<dyn Sink>>,
-    progress: Progress,
-    health: Health,
-    tally: Tally,
-    /// Sums over the run, by pass.
-    pass_ms: Vec<(String, f64)>,
-}
-
-impl Run {
-    fn simulate(&mut self, simulation: &mut Simulation) -> Result<()> {
-        for _ in 0..self.tally.frames {
-            if interrupt::asked() {
-                break;
-            }
-            if let Some(frame) = simulation.next_frame()? {
-                self.take(frame)?;
-            }
-        }
-        while let Some(frame) = simulation.finish_frame()? {
-            self.take(frame)?;
-        }
-        match self.tally.frames_done {
-            done if done < self.tally.frames => Err(Error::Interrupted { frames_done: done }),
-            _ => Ok(()),
-        }
-    }
-
-    fn take(&mut self, frame: Frame) -> Result<()> {
-        let frame = Arc::new(frame);
-        for sink in &mut self.sinks {
-            sink.frame(&frame)?;
-        }
-        self.pass_warnings();
-        self.tally.add(&frame);
-        for (label, ms) in &frame.pass_ms {
-            match self.pass_ms.iter_mut().find(|(known, _)| known == label) {
-                Some((_, sum)) => *sum += ms,
-                None => self.pass_ms.push((label.clone(), *ms)),
-            }
-        }
-        for warning in self.health.check(&frame) {
-            self.progress.warn(&warning);
-        }
-        self.progress.frame(&frame, &self.tally);
-        Ok(())
-    }
-
-    /// The first thing that went wrong, while simulating or while writing.
-    fn finish_sinks(&mut self, simulated: Result<()>) -> Result<()> {
-        let finished: Vec<_> = self.sinks.iter_mut().map(|sink| sink.finish()).collect();
-        self.pass_warnings();
-        finished.into_iter().fold(simulated, Result::and)
-    }
-
-    fn pass_warnings(&mut self) {
-        for warning in self.sinks.iter_mut().flat_map(|sink| sink.warnings()) {
-            self.progress.warn(&warning);
-        }
-    }
-
-    /// Keeps servers open until Ctrl-C.
-    fn serve(&self) {
-        let places: Vec<_> = self.sinks.iter().filter_map(|sink| sink.serving()).collect();
-        if !places.is_empty() {
-            self.progress
-                .note(&format!("still there until Ctrl-C: {}", places.join(", ")));
-            interrupt::wait();
-        }
-    }
-
-    fn tell_end(&mut self, folder: &Folder, outcome: &Result<()>) {
-        self.tally.stop_clock();
-        if let Some(summary) = self.health.summary() {
-            self.progress.warn(&summary);
-        }
-        if let Some(note) = self.health.note() {
-            self.progress.note(&note);
-        }
-        if !self.pass_ms.is_empty() {
-            let frames = f64::from(self.tally.frames_done.max(1));
-            let times: Vec<_> = self
-                .pass_ms
-                .iter()
-                .map(|(label, ms)| format!("{label} {:.3}", ms / frames))
-                .collect();
-            self.progress
-                .note(&format!("milliseconds a frame: {}", times.join(", ")));
-        }
-        let frames = self.tally.frames_done;
-        let end = if outcome.is_ok() {
-            format!("done: {frames} frames")
-        } else {
-            format!("stopped after {frames} frames")
-        };
-        self.progress.finish(
-            &format!(
-                "{end} in {} ({}, {} particle steps/s)",
-                folder.path().display(),
-                seconds(self.tally.wall_s),
-                short(self.tally.particle_steps_per_s)
-            ),
-            &self.tally,
-        );
-    }
+        recipe,
+        start: Start::Beginning,
+        wall_s: 0.0,
+    })
 }

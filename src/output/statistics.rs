@@ -1,7 +1,7 @@
 //! `stats.jsonl`: one JSON object a frame, on one line.
 
-use std::fs::File;
-use std::io::Write as _;
+use std::fs::{File, OpenOptions};
+use std::io::{ErrorKind, Write as _};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -19,8 +19,10 @@ pub struct StatisticsFile {
 }
 
 impl StatisticsFile {
-    pub fn create(path: PathBuf) -> Result<Self> {
-        let file = File::create(&path).map_err(|reason| disk::failed(&path, "create", reason))?;
+    /// Goes on behind the lines that are there.
+    pub fn open(path: PathBuf) -> Result<Self> {
+        let file = OpenOptions::new().create(true).append(true).open(&path);
+        let file = file.map_err(|reason| disk::failed(&path, "create", reason))?;
         Ok(Self { path, file })
     }
 }
@@ -29,15 +31,23 @@ impl Sink for StatisticsFile {
     fn frame(&mut self, frame: &Arc<Frame>) -> Result<()> {
         let mut line = line(frame);
         line.push('\n');
+        // An open file can be written although nobody can find it any more.
+        if !self.path.exists() {
+            return Err(disk::failed(&self.path, "find", ErrorKind::NotFound.into()));
+        }
         self.file
             .write_all(line.as_bytes())
             .map_err(|reason| disk::failed(&self.path, "write", reason))
     }
 
-    fn finish(&mut self) -> Result<()> {
+    fn flush(&mut self) -> Result<()> {
         self.file
             .sync_all()
-            .map_err(|reason| disk::failed(&self.path, "write", reason))
+            .map_err(|reason| disk::failed(&self.path, "save", reason))
+    }
+
+    fn finish(&mut self) -> Result<()> {
+        self.flush()
     }
 }
 

@@ -12,10 +12,14 @@ pub struct Tally {
     pub frames_done: u32,
     /// Of the whole run.
     pub frames: u32,
+    /// Of all sittings.
     pub wall_s: f64,
     /// Particles times steps.
     pub particle_steps: u64,
     pub particle_steps_per_s: f64,
+    /// Of earlier sittings.
+    #[serde(skip)]
+    wall_before_s: f64,
     #[serde(skip)]
     started: Instant,
     /// Of the last frame, since the run began.
@@ -32,9 +36,19 @@ impl Tally {
             wall_s: 0.0,
             particle_steps: 0,
             particle_steps_per_s: 0.0,
+            wall_before_s: 0.0,
             started: Instant::now(),
             steps: 0,
         }
+    }
+
+    /// Goes on with what earlier sittings did: `steps` since the run began, `particle_steps`, seconds.
+    pub fn resume(mut self, frames_done: u32, steps: u64, particle_steps: u64, wall_s: f64) -> Self {
+        self.frames_done = frames_done;
+        self.steps = steps;
+        self.particle_steps = particle_steps;
+        self.wall_before_s = wall_s;
+        self
     }
 
     /// Counts the next frame.
@@ -48,7 +62,7 @@ impl Tally {
 
     /// Reads the clock once more.
     pub fn stop_clock(&mut self) {
-        self.wall_s = self.started.elapsed().as_secs_f64();
+        self.wall_s = self.wall_before_s + self.started.elapsed().as_secs_f64();
     }
 
     /// Seconds until the last frame, when frames keep taking as long as they did.

@@ -2,8 +2,9 @@
 
 use std::panic::resume_unwind;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
+use std::time::Duration;
 
 use crate::error::{Error, Result};
 
@@ -15,21 +16,30 @@ pub struct Workers {
     jobs: Option<SyncSender<Job>>,
     threads: Vec<JoinHandle<()>>,
     failure: Arc<Mutex<Option<Error>>>,
+    submitted: u64,
+    /// Jobs done, and who waits for them.
+    done: Arc<(Mutex<u64>, Condvar)>,
 }
+
+/// Between two looks at whether a thread still lives.
+const PATIENCE: Duration = Duration::from_millis(100);
 
 impl Workers {
     pub fn new(count: usize) -> Self {
         let (jobs, queue) = sync_channel(count);
         let queue = Arc::new(Mutex::new(queue));
         let failure = Arc::new(Mutex::new(None));
+        let done = Arc::new((Mutex::new(0), Condvar::new()));
         let thread = |_| {
-            let (queue, failure) = (queue.clone(), failure.clone());
-            thread::spawn(move || work(&queue, &failure))
+            let (queue, failure, done) = (queue.clone(), failure.clone(), done.clone());
+            thread::spawn(move || work(&queue, &failure, &done))
         };
         Self {
             jobs: Some(jobs),
             threads: (0..count).map(thread).collect(),
             failure,
+            submitted: 0,
+            done,
         }
     }
 
@@ -37,10 +47,27 @@ impl Workers {
     pub fn submit(&mut self, job: impl FnOnce() -> Result<()> + Send + 'static) -> Result<()> {
         self.failed()?;
         match &self.jobs {
-            Some(jobs) if jobs.send(Box::new(job)).is_ok() => Ok(()),
+            Some(jobs) if jobs.send(Box::new(job)).is_ok() => {
+                self.submitted += 1;
+                Ok(())
+            }
             // Nobody listens: every thread has panicked, and joining them passes the panic on.
             _ => self.finish(),
         }
+    }
+
+    /// Waits until every job so far is done; more may follow.
+    pub fn wait(&mut self) -> Result<()> {
+        let mut done = lock(&self.done.0);
+        while *done < self.submitted && self.threads.iter().any(|thread| !thread.is_finished()) {
+            // A thread that panicked reports nothing, so look at the threads from time to time.
+            let (guard, _) = (self.done.1)
+                .wait_timeout(done, PATIENCE)
+                .unwrap_or_else(PoisonError::into_inner);
+            done = guard;
+        }
+        drop(done);
+        self.failed()
     }
 
     /// Waits for every job.
@@ -60,18 +87,17 @@ impl Workers {
 }
 
 /// Works until the queue is closed; after a failure only empties it.
-fn work(queue: &Mutex<Receiver<Job>>, failure: &Mutex<Option<Error>>) {
+fn work(queue: &Mutex<Receiver<Job>>, failure: &Mutex<Option<Error>>, done: &(Mutex<u64>, Condvar)) {
     let mut failed = false;
     loop {
         let job = lock(queue).recv();
         let Ok(job) = job else { return };
-        if failed {
-            continue;
-        }
-        if let Err(error) = job() {
+        if !failed && let Err(error) = job() {
             failed = true;
             lock(failure).get_or_insert(error);
         }
+        *lock(&done.0) += 1;
+        done.1.notify_all();
     }
 }
 
@@ -101,6 +127,30 @@ mod tests {
         }
         workers.finish().unwrap();
         assert_eq!(sum.load(Ordering::Relaxed), 5050);
+    }
+
+    #[test]
+    fn waiting_ends_when_every_job_is_done_and_more_may_follow() {
+        let sum = Arc::new(AtomicU32::new(0));
+        let mut workers = Workers::new(2);
+        for round in 1..=3 {
+            for _ in 0..10 {
+                let sum = sum.clone();
+                workers
+                    .submit(move || {
+                        thread::sleep(Duration::from_millis(2));
+                        sum.fetch_add(1, Ordering::Relaxed);
+                        Ok(())
+                    })
+                    .unwrap();
+            }
+            workers.wait().unwrap();
+            assert_eq!(sum.load(Ordering::Relaxed), 10 * round);
+        }
+        workers
+            .submit(|| Err(Error::usage("disk full", "free space")))
+            .unwrap();
+        assert!(workers.wait().is_err());
     }
 
     #[test]

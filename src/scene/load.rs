@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::model::SceneFile;
 use super::validate::validate;
-use super::{Scene, check, json as json_text, library, set};
+use super::{Scene, Written, check, json as json_text, library, set};
 use crate::error::{Error, Problem, Result};
 
 /// Loads a scene file, or a scene that ships when no file has this path. `overrides` are `path=value`.
@@ -32,10 +32,17 @@ pub fn load(path: &Path, overrides: &[String]) -> Result<Scene> {
 
 /// Parses a scene's JSON. `file_name` is for messages and the scene's name; paths in the scene start from `folder`.
 pub fn parse(text: &str, file_name: &str, folder: &Path, overrides: &[String]) -> Result<Scene> {
-    scene(text, file_name, folder, overrides).map_err(|problems| Error::Scene {
+    let mut scene = scene(text, file_name, folder, overrides).map_err(|problems| Error::Scene {
         file: file_name.to_string(),
         problems,
-    })
+    })?;
+    scene.written = Written {
+        text: text.to_owned(),
+        file_name: file_name.to_owned(),
+        folder: folder.to_owned(),
+        overrides: overrides.to_vec(),
+    };
+    Ok(scene)
 }
 
 fn scene(

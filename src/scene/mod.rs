@@ -29,6 +29,8 @@ mod text;
 mod time;
 mod validate;
 
+use std::path::PathBuf;
+
 use glam::{DVec3, Vec3};
 use model::{Addressing, Cell, Dashpot, Integrator, Render, SceneFile, SlicingAxis, Storage, Wall};
 
@@ -60,6 +62,19 @@ pub struct Scene {
     pub color: Coloring,
     /// What was decided or dropped on the way (overlaps removed, say); told to the user.
     pub notes: Vec<String>,
+    pub written: Written,
+}
+
+/// What a scene was loaded from: loading it again gives the same scene, to the bit.
+#[derive(Debug, Clone, Default)]
+pub struct Written {
+    pub text: String,
+    /// For messages and the scene's name.
+    pub file_name: String,
+    /// Where paths in the scene start from.
+    pub folder: PathBuf,
+    /// `path=value`.
+    pub overrides: Vec<String>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

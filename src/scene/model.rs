@@ -59,6 +59,27 @@ pub struct SceneFile {
     pub render: Render,
 }
 
+impl SceneFile {
+    /// Paths of the meshes and particle files that the scene names, as it writes them.
+    pub fn files(&self) -> Vec<&str> {
+        let bodies = self.bodies.iter().filter_map(|body| match &body.shape {
+            Shape::Mesh { file, .. } | Shape::Particles { file, .. } => Some(file.as_str()),
+            _ => None,
+        });
+        let colliders = self
+            .colliders
+            .iter()
+            .filter_map(|collider| match &collider.shape {
+                ColliderShape::Mesh { file, .. } => Some(file.as_str()),
+                _ => None,
+            });
+        let mut files: Vec<_> = bodies.chain(colliders).collect();
+        files.sort_unstable();
+        files.dedup();
+        files
+    }
+}
+
 fn three() -> u32 {
     3
 }

@@ -11,7 +11,7 @@ use super::contact::Law;
 use super::frame::{Frame, Report};
 use super::model::{Addressing, Render, SceneFile, SlicingAxis};
 use super::text::number;
-use super::{Action, Dimensions, Grains, Neighbors, Scene, obstacles, schedule, time};
+use super::{Action, Dimensions, Grains, Neighbors, Scene, Written, obstacles, schedule, time};
 use crate::error::Problem;
 
 /// Checks what the schema cannot say, completes what was left out, and turns the rest into numbers. Files named in
@@ -69,6 +69,7 @@ pub(super) fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Prob
             render,
             color,
             notes: report.notes,
+            written: Written::default(),
             file,
         }),
         _ => Err(report.problems),

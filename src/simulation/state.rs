@@ -63,6 +63,12 @@ impl State {
         found.map(|(_, bytes)| bytes.as_slice())
     }
 
+    /// Steps since the run began.
+    pub fn steps(&self) -> u64 {
+        let clock = self.buffer("clock").map(bytemuck::pod_read_unaligned::<Clock>);
+        clock.map_or(0, |clock| u64::from(clock.step))
+    }
+
     /// A buffer of vectors, one a slot; z is 0 in 2D.
     pub fn vectors(&self, name: &str) -> Option<Vec<Vec3>> {
         let numbers: Vec<f32> = bytemuck::pod_collect_to_vec(self.buffer(name)?);

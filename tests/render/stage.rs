@@ -80,6 +80,7 @@ pub fn scene(dimensions: Dimensions, min: Vec3, max: Vec3, radius: f64, size: [u
             legend: true,
         },
         notes: Vec::new(),
+        written: Default::default(),
     }
 }
 

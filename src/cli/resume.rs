@@ -1,0 +1,93 @@
+//! `sliceflow resume`
+
+use std::path::PathBuf;
+
+use super::checkpoint_args::CheckpointArgs;
+use super::run;
+use super::scene_args::duration;
+use crate::error::{Error, Result};
+use crate::gpu::AdapterChoice;
+use crate::output::{self, Recorded, Settings, progress};
+
+/// Goes on with a run that was stopped, or starts a variant from one of its frames
+///
+/// The run goes on behind its newest checkpoint, in its own folder, and comes to the same bytes as if nothing had
+/// happened. A checkpoint that is damaged is told, and the one before it is used; without any, the run begins anew.
+/// With --branch-at, a variant starts from that frame in a folder of its own; the state of the frame is simulated again
+/// where no checkpoint has it.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    /// Folder of the run
+    run: PathBuf,
+    /// Frames that the run shall have, the first state included [default: as it was started]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    frames: Option<u32>,
+    /// Starts a variant from this frame
+    #[arg(long, value_name = "FRAME")]
+    branch_at: Option<u32>,
+    /// Changes a key of the variant's scene: gravity=[0,0,0] (repeatable)
+    #[arg(long, value_name = "KEY=VALUE", requires = "branch_at")]
+    set: Vec<String>,
+    /// The variant's folder [default: RUN_at_FRAME]
+    #[arg(long, value_name = "DIR", requires = "branch_at")]
+    out: Option<PathBuf>,
+    /// Replaces an earlier run in the variant's folder
+    #[arg(long, requires = "branch_at")]
+    force: bool,
+    #[command(flatten)]
+    checkpoints: CheckpointArgs,
+    /// Adapter, by index or part of its name (see `sliceflow devices`)
+    #[arg(long, value_name = "NAME|INDEX")]
+    adapter: Option<String>,
+    /// How progress is shown
+    #[arg(long, value_name = "STYLE", default_value = "bar")]
+    progress: progress::Style,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sliceflow resume out/green_cube
+  sliceflow resume out/green_cube --frames 600
+  sliceflow resume out/green_cube --branch-at 40 --set 'gravity=[0,0,0]' --out out/weightless";
+
+pub fn main(args: &Args) -> Result<()> {
+    let recorded = Recorded::read(&args.run)?;
+    let recipe = recorded.recipe()?;
+    let (mut outputs, timings) = run::recorded(&recipe.arguments)?;
+    outputs.checkpoints = args.checkpoints.or(outputs.checkpoints);
+    let mut overrides = args.set.clone();
+    if let Some(frames) = args.frames {
+        let fps = recipe.scene(&overrides)?.time.fps;
+        overrides.push(format!("time.duration={:e}", duration(frames, fps)));
+    }
+    let folder = match (&args.out, args.branch_at) {
+        (Some(out), _) => out.clone(),
+        (None, Some(frame)) => {
+            let name = args
+                .run
+                .file_name()
+                .ok_or_else(|| Error::usage("the variant needs a folder", "give one with --out"))?;
+            args.run
+                .with_file_name(format!("{}_at_{frame}", name.to_string_lossy()))
+        }
+        (None, None) => args.run.clone(),
+    };
+    let settings = Settings {
+        folder,
+        force: args.force,
+        outputs,
+        timings,
+        adapter: args
+            .adapter
+            .as_deref()
+            .map(AdapterChoice::parse)
+            .unwrap_or_default(),
+        progress: args.progress,
+        command_line: std::env::args().collect(),
+    };
+    match args.branch_at {
+        Some(frame) => output::branch(&recorded, frame, &overrides, &settings),
+        None => output::resume(&recorded, &overrides, &settings),
+    }
+}

@@ -1,0 +1,358 @@
+//! Drives a simulation: frames to the sinks, checkpoints between them.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::checkpoint::{About, Checkpoint};
+use super::folder::Folder;
+use super::health::Health;
+use super::keeper::Keeper;
+use super::manifest::Manifest;
+use super::progress::Progress;
+use super::recipe::Recipe;
+use super::run::Settings;
+use super::tally::Tally;
+use super::text::{bytes, seconds, short};
+use super::{Sink, disk_bytes, interrupt};
+use crate::error::{Error, Result};
+use crate::gpu::Gpu;
+use crate::gpu::device::describe;
+use crate::plan::Plan;
+use crate::scene::Scene;
+use crate::simulation::frame::Frame;
+use crate::simulation::{Simulation, State};
+
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// A run about to begin.
+pub(super) struct Launch<'a> {
+    pub scene: &'a Scene,
+    pub settings: &'a Settings,
+    pub folder: Arc<Folder>,
+    pub progress: Progress,
+    pub recipe: Recipe,
+    pub start: Start,
+    /// Seconds that earlier sittings took.
+    pub wall_s: f64,
+}
+
+/// Where a run begins.
+pub(super) enum Start {
+    /// In a folder that is cleared first.
+    Beginning,
+    /// The same run once more, since it has no checkpoint.
+    Again,
+    /// Behind a checkpoint of the same run.
+    Behind(Box<Checkpoint>),
+    /// With the frame of a state that another run came to.
+    With(Box<State>),
+}
+
+impl Start {
+    pub fn state(&self) -> Option<&State> {
+        match self {
+            Self::Beginning | Self::Again => None,
+            Self::Behind(checkpoint) => Some(&checkpoint.state),
+            Self::With(state) => Some(state),
+        }
+    }
+}
+
+pub(super) fn drive(launch: Launch) -> Result<()> {
+    let Launch {
+        scene,
+        settings,
+        folder,
+        progress,
+        recipe,
+        start,
+        wall_s,
+    } = launch;
+    let gpu = open(settings, &progress)?;
+    let about = About {
+        run_id: recipe.run_id.clone(),
+        version: VERSION.into(),
+        adapter: describe(&gpu.adapter),
+        particle_steps: 0,
+        health: Health::default(),
+    };
+    let plan = Plan::new(scene, &gpu.limits, &settings.outputs.wanted(scene))?;
+    for note in scene.notes.iter().chain(&plan.notes) {
+        progress.note(note);
+    }
+    let first = recipe.first_frame;
+    progress.note(&format!(
+        "{} frames, about {} in {}",
+        scene.time.frames - first,
+        bytes(disk_bytes(scene, &settings.outputs)),
+        folder.path().display()
+    ));
+    let mut simulation = Simulation::new(gpu, scene, &plan)?;
+    simulation.set_timings(settings.timings);
+    if let Some(state) = start.state() {
+        simulation.restore(state)?;
+    }
+
+    let told = match &start {
+        Start::Beginning | Start::With(_) => folder.clear()?,
+        Start::Again => folder.rewind(None)?,
+        Start::Behind(checkpoint) => folder.rewind(Some(checkpoint.state.frame))?,
+    };
+    if let Some(told) = told {
+        progress.note(&told);
+    }
+    let mut sinks = settings.outputs.sinks(scene, &plan, &folder, &progress)?;
+    let mut tally = Tally::start(scene.time.frames - first);
+    let mut health = Health::default();
+    if let Some(state) = start.state() {
+        tally = tally.resume(0, state.steps(), 0, wall_s);
+    }
+    if let Start::Behind(checkpoint) = &start {
+        let Checkpoint { about: was, state } = &**checkpoint;
+        tally = tally.resume(state.frame + 1 - first, state.steps(), was.particle_steps, wall_s);
+        health = was.health.clone();
+        warn_of_other_machine(was, &about, &progress);
+        for sink in &mut sinks {
+            sink.resume_from(state.frame + 1)?;
+        }
+    }
+    let pinned = recipe.variant_of.is_some().then_some(first);
+    let behind = match &start {
+        Start::Behind(checkpoint) => Some(checkpoint.state.frame),
+        _ => None,
+    };
+    let mut manifest = Manifest::new(
+        folder.manifest(),
+        scene,
+        &plan,
+        simulation.gpu(),
+        &settings.command_line,
+        settings.outputs.files(scene),
+    );
+    manifest.recipe = Some(recipe);
+    manifest.update(tally)?;
+
+    interrupt::listen();
+    let mut run = Run {
+        sinks,
+        progress,
+        about,
+        keeper: Keeper::new(settings.outputs.checkpoints, folder.clone(), pinned, behind),
+        manifest,
+        folder,
+        health,
+        tally,
+        pass_ms: Vec::new(),
+        frames_timed: 0,
+    };
+    let simulated = run.simulate(
+        &mut simulation,
+        scene.time.frames,
+        matches!(start, Start::With(_)),
+    );
+    // Sinks are finished in any case: frames before a failure stay.
+    let outcome = run.finish_sinks(simulated);
+    run.tell_end(&outcome);
+    let closed = run.manifest.close(run.tally, &outcome);
+    if outcome.is_ok() {
+        run.serve();
+    }
+    outcome.and(closed)
+}
+
+/// Opens the device that a run asks for, and tells what is to be known about it.
+pub(super) fn open(settings: &Settings, progress: &Progress) -> Result<Gpu> {
+    let gpu = Gpu::open(&settings.adapter, false)?;
+    if gpu.is_software() {
+        progress.warn(&format!(
+            "software adapter {} computes on the processor, which is slow",
+            describe(&gpu.adapter)
+        ));
+    }
+    if settings.timings && !gpu.has_timestamps {
+        progress.warn("this adapter cannot time passes, so --timings has no effect");
+    }
+    Ok(gpu)
+}
+
+/// Bits depend on the adapter, its driver and the program.
+fn warn_of_other_machine(was: &About, is: &About, progress: &Progress) {
+    let pairs = [
+        ("adapter", &was.adapter, &is.adapter),
+        ("version", &was.version, &is.version),
+    ];
+    for (what, was, is) in pairs {
+        if was != is {
+            progress.warn(&format!(
+                "the run began with {what} {was} and goes on with {is}: from here on its bits may differ from a run \
+                 that was never interrupted"
+            ));
+        }
+    }
+}
+
+struct Run<'a> {
+    sinks: Vec<Box<dyn Sink>>,
+    progress: Progress,
+    /// Of the next checkpoint.
+    about: About,
+    keeper: Keeper,
+    manifest: Manifest<'a>,
+    folder: Arc<Folder>,
+    health: Health,
+    tally: Tally,
+    /// Sums over this sitting, by pass.
+    pass_ms: Vec<(String, f64)>,
+    frames_timed: u32,
+}
+
+impl Run<'_> {
+    /// Makes frames up to `frames`; the present one too, if it is to be shown.
+    fn simulate(&mut self, simulation: &mut Simulation, frames: u32, show: bool) -> Result<()> {
+        if show {
+            let oldest = simulation.show(simulation.next_index() - 1)?;
+            oldest.map_or(Ok(()), |frame| self.take(frame))?;
+            self.checkpoint_when_due(simulation, false)?;
+        }
+        while simulation.next_index() < frames && !interrupt::asked() {
+            if let Some(frame) = simulation.next_frame()? {
+                self.take(frame)?;
+            }
+            self.checkpoint_when_due(simulation, false)?;
+        }
+        self.receive_all(simulation)?;
+        self.checkpoint_when_due(simulation, true)?;
+        match self.tally.frames_done {
+            done if done < self.tally.frames => Err(Error::Interrupted { frames_done: done }),
+            _ => Ok(()),
+        }
+    }
+
+    fn receive_all(&mut self, simulation: &mut Simulation) -> Result<()> {
+        while let Some(frame) = simulation.finish_frame()? {
+            self.take(frame)?;
+        }
+        Ok(())
+    }
+
+    /// Writes a checkpoint if one is due: when all frames so far are sound and safe on disk, and not before. That it
+    /// cannot be written is no reason to stop.
+    fn checkpoint_when_due(&mut self, simulation: &mut Simulation, at_end: bool) -> Result<()> {
+        let Some(frame) = simulation.next_index().checked_sub(1) else {
+            return Ok(());
+        };
+        if !self.keeper.is_due(frame, at_end) {
+            return Ok(());
+        }
+        self.receive_all(simulation)?;
+        for sink in &mut self.sinks {
+            sink.flush()?;
+        }
+        self.folder.save(self.keeper.unsaved(frame))?;
+        self.about.particle_steps = self.tally.particle_steps;
+        self.about.health = self.health.clone();
+        let written = self.keeper.write(simulation.save_state()?, self.about.clone());
+        if let Err(error) = written.and_then(|()| self.manifest.update(self.tally)) {
+            self.progress.warn(&format!(
+                "no checkpoint behind frame {frame}, the run goes on: {error}"
+            ));
+        }
+        Ok(())
+    }
+
+    fn take(&mut self, frame: Frame) -> Result<()> {
+        let frame = Arc::new(frame);
+        for sink in &mut self.sinks {
+            sink.frame(&frame)?;
+        }
+        self.pass_warnings();
+        self.tally.add(&frame);
+        self.frames_timed += 1;
+        for (label, ms) in &frame.pass_ms {
+            match self.pass_ms.iter_mut().find(|(known, _)| known == label) {
+                Some((_, sum)) => *sum += ms,
+                None => self.pass_ms.push((label.clone(), *ms)),
+            }
+        }
+        for warning in self.health.check(&frame) {
+            self.progress.warn(&warning);
+        }
+        self.progress.frame(&frame, &self.tally);
+        Ok(())
+    }
+
+    /// The first thing that went wrong, while simulating or while writing.
+    fn finish_sinks(&mut self, simulated: Result<()>) -> Result<()> {
+        let finished: Vec<_> = self.sinks.iter_mut().map(|sink| sink.finish()).collect();
+        self.pass_warnings();
+        finished.into_iter().fold(simulated, Result::and)
+    }
+
+    fn pass_warnings(&mut self) {
+        for warning in self.sinks.iter_mut().flat_map(|sink| sink.warnings()) {
+            self.progress.warn(&warning);
+        }
+    }
+
+    /// Keeps servers open until Ctrl-C.
+    fn serve(&self) {
+        let places: Vec<_> = self.sinks.iter().filter_map(|sink| sink.serving()).collect();
+        if !places.is_empty() {
+            self.progress
+                .note(&format!("still there until Ctrl-C: {}", places.join(", ")));
+            interrupt::wait();
+        }
+    }
+
+    fn tell_end(&mut self, outcome: &Result<()>) {
+        self.tally.stop_clock();
+        if let Some(summary) = self.health.summary() {
+            self.progress.warn(&summary);
+        }
+        if let Some(note) = self.health.note() {
+            self.progress.note(&note);
+        }
+        if !self.pass_ms.is_empty() {
+            let frames = f64::from(self.frames_timed.max(1));
+            let times: Vec<_> = self
+                .pass_ms
+                .iter()
+                .map(|(label, ms)| format!("{label} {:.3}", ms / frames))
+                .collect();
+            self.progress
+                .note(&format!("milliseconds a frame: {}", times.join(", ")));
+        }
+        let frames = self.tally.frames_done;
+        let end = if outcome.is_ok() {
+            format!("done: {frames} frames")
+        } else {
+            format!("stopped after {frames} frames")
+        };
+        // Where a grain was lost, going on would lose it again.
+        if matches!(outcome, Err(error) if !matches!(error, Error::Guard(_))) {
+            self.progress.note(&format!(
+                "go on with `sliceflow resume {}`",
+                quoted(self.folder.path())
+            ));
+        }
+        self.progress.finish(
+            &format!(
+                "{end} in {} ({}, {} particle steps/s)",
+                self.folder.path().display(),
+                seconds(self.tally.wall_s),
+                short(self.tally.particle_steps_per_s)
+            ),
+            &self.tally,
+        );
+    }
+}
+
+/// A path as a shell takes it.
+fn quoted(path: &Path) -> String {
+    let text = path.display().to_string();
+    if text.chars().any(|c| !c.is_alphanumeric() && !"/._-".contains(c)) {
+        format!("'{}'", text.replace('\'', "'\\''"))
+    } else {
+        text
+    }
+}

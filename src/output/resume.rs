@@ -1,0 +1,200 @@
+//! Runs that go on: the same run behind its newest checkpoint, or a variant from one of its frames.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::checkpoint::Checkpoint;
+use super::drive::{Launch, Start, drive, open};
+use super::folder::Folder;
+use super::interrupt;
+use super::progress::Progress;
+use super::recipe::{Recipe, Recorded};
+use super::rewind::checkpoints;
+use super::run::Settings;
+use crate::error::{Error, Result};
+use crate::plan::{Plan, Wanted};
+use crate::scene::Scene;
+use crate::simulation::{Simulation, State};
+
+/// Goes on with a run where it stopped: in its own folder, behind its newest checkpoint that is whole. `more` are
+/// overrides that make it longer or shorter (`time.duration`). Without a checkpoint it begins anew.
+pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Result<()> {
+    let mut recipe = recorded.recipe()?.clone();
+    let mut scene = recipe.scene_unchanged(more)?;
+    recipe.overrides.extend_from_slice(more);
+    let folder = Arc::new(Folder::existing(&recorded.folder)?);
+    let progress = Progress::new(settings.progress, scene.time.frames);
+    let first = recipe.first_frame;
+    let frames = scene.time.frames;
+    let newest = newest(&recorded.folder, &recipe, u32::MAX, &progress)?;
+    let made = match &newest {
+        Some(checkpoint) => checkpoint.state.frame + 1,
+        None => first,
+    };
+    if frames < made {
+        return Err(Error::usage(
+            format!("the run has made {made} frames already, and {frames} are asked for"),
+            "ask for more, or begin a new run",
+        ));
+    }
+    if recorded.status == "finished" && frames == first + recorded.frames_done {
+        progress.note(&format!(
+            "{} is finished: {frames} frames; make it longer with --frames, or start a variant with --branch-at",
+            recorded.folder.display()
+        ));
+        return Ok(());
+    }
+    let start = match newest {
+        Some(checkpoint) => {
+            progress.note(&format!(
+                "going on behind frame {} of {frames}",
+                checkpoint.state.frame
+            ));
+            scene.capacity = checkpoint.state.capacity(&scene);
+            Start::Behind(Box::new(checkpoint))
+        }
+        None if recipe.variant_of.is_some() => {
+            return Err(Error::usage(
+                "the checkpoint that this variant began with is gone or damaged",
+                "make the variant again with --branch-at",
+            ));
+        }
+        None => {
+            progress.note("no checkpoint: beginning with frame 0");
+            Start::Again
+        }
+    };
+    drive(Launch {
+        scene: &scene,
+        settings,
+        folder,
+        progress,
+        recipe,
+        start,
+        wall_s: recorded.wall_s,
+    })
+}
+
+/// Starts a variant of a run from its frame `frame`, changed by `overrides`, in the folder of `settings`.
+pub fn branch(recorded: &Recorded, frame: u32, overrides: &[String], settings: &Settings) -> Result<()> {
+    let recipe = recorded.recipe()?;
+    let mut old = recipe.scene_unchanged(&[])?;
+    let mut scene = recipe.scene(overrides)?;
+    check_variant(recipe, &old, &scene, frame)?;
+    let folder = Arc::new(Folder::open(&settings.folder, settings.force)?);
+    let progress = Progress::new(settings.progress, scene.time.frames);
+    let newest = newest(&recorded.folder, recipe, frame, &progress)?;
+    if newest.is_none() && recipe.variant_of.is_some() {
+        return Err(Error::usage(
+            "the checkpoint that this run began with is gone or damaged",
+            "branch from the run that it is a variant of",
+        ));
+    }
+    let state = reach(&mut old, newest, frame, settings, &progress)?.with_origin(scene.origin);
+    scene.capacity = state.capacity(&scene);
+    let variant = Recipe::new(&scene, &recipe.arguments)?;
+    let from = std::path::absolute(&recorded.folder).unwrap_or_else(|_| recorded.folder.clone());
+    progress.note(&format!(
+        "a variant of {} from frame {frame} on",
+        recorded.folder.display()
+    ));
+    drive(Launch {
+        scene: &scene,
+        settings,
+        folder,
+        progress,
+        recipe: Recipe {
+            working_folder: recipe.working_folder.clone(),
+            first_frame: frame,
+            variant_of: Some(from),
+            ..variant
+        },
+        start: Start::With(Box::new(state)),
+        wall_s: 0.0,
+    })
+}
+
+fn check_variant(recipe: &Recipe, old: &Scene, scene: &Scene, frame: u32) -> Result<()> {
+    let (first, last) = (recipe.first_frame, old.time.frames - 1);
+    if !(first..=last).contains(&frame) {
+        return Err(Error::usage(
+            format!("the run has no frame {frame}"),
+            format!("give --branch-at {first} to {last}"),
+        ));
+    }
+    if frame >= scene.time.frames {
+        return Err(Error::usage(
+            format!(
+                "the variant would end before frame {frame}: it has {} frames",
+                scene.time.frames
+            ),
+            "give it more with --frames, or branch earlier",
+        ));
+    }
+    if scene.dimensions != old.dimensions {
+        return Err(Error::usage(
+            "a variant cannot have another number of dimensions",
+            "leave `dimensions` as it is, or start a new run",
+        ));
+    }
+    if scene.time.fps != old.time.fps {
+        return Err(Error::usage(
+            format!("with another `time.fps`, frame {frame} would be another moment"),
+            "leave it as it is, or start a new run",
+        ));
+    }
+    Ok(())
+}
+
+/// The newest whole checkpoint of a run at or before a frame; what is wrong with newer ones is told.
+fn newest(folder: &Path, recipe: &Recipe, until: u32, progress: &Progress) -> Result<Option<Checkpoint>> {
+    for (frame, path) in checkpoints(folder)?.into_iter().rev() {
+        if frame > until {
+            continue;
+        }
+        let wrong = match Checkpoint::read(&path) {
+            Ok(read) if read.about.run_id != recipe.run_id => "belongs to another run".to_owned(),
+            Ok(read) if read.state.frame != frame => "has the name of another frame".to_owned(),
+            Ok(read) => return Ok(Some(read)),
+            Err(wrong) => wrong,
+        };
+        progress.warn(&format!("{} {wrong}; looking for one before it", path.display()));
+    }
+    Ok(None)
+}
+
+/// The state of a run at a frame: that of a checkpoint, or simulated from there without writing anything.
+fn reach(
+    scene: &mut Scene,
+    from: Option<Checkpoint>,
+    frame: u32,
+    settings: &Settings,
+    progress: &Progress,
+) -> Result<State> {
+    let state = from.map(|checkpoint| checkpoint.state);
+    if let Some(state) = &state {
+        if state.frame == frame {
+            return Ok(state.clone());
+        }
+        scene.capacity = state.capacity(scene);
+    }
+    let next = state.as_ref().map_or(0, |state| state.frame + 1);
+    progress.note(&format!(
+        "there is no checkpoint of frame {frame}: simulating frames {next} to {frame} again"
+    ));
+    interrupt::listen();
+    let gpu = open(settings, progress)?;
+    let plan = Plan::new(scene, &gpu.limits, &Wanted::default())?;
+    let mut simulation = Simulation::new(gpu, scene, &plan)?;
+    if let Some(state) = &state {
+        simulation.restore(state)?;
+    }
+    while simulation.next_index() <= frame {
+        if interrupt::asked() {
+            return Err(Error::Interrupted { frames_done: 0 });
+        }
+        simulation.next_frame()?;
+    }
+    while simulation.finish_frame()?.is_some() {}
+    simulation.save_state()
+}

@@ -1,0 +1,372 @@
+//! `sliceflow resume` as a user meets it: whatever ended a run, it comes to the bytes of one that nothing ended.
+
+#![cfg(unix)]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{RngCore as _, SeedableRng as _};
+use serde_json::Value;
+
+/// A scene with everything that may be lost between two frames: an emitter, a moving obstacle, a change of gravity.
+const SCENE: &str = r#"{
+  "dimensions": 2,
+  "domain": { "min": [-0.3, -0.3], "max": [0.3, 0.4] },
+  "grains": { "radius": 0.01, "density": 1000, "spring": 2000, "restitution": 0.6 },
+  "bodies": [ { "shape": { "kind": "box", "min": [-0.25, 0], "max": [0.1, 0.3] }, "jitter": 0.01, "spacing": 0.0205 } ],
+  "colliders": [
+    { "shape": { "kind": "sphere", "center": [0, -0.2], "radius": 0.06 },
+      "path": [ { "at": 0, "offset": [0, 0] }, { "at": 0.1, "offset": [0.1, 0] } ] }
+  ],
+  "emitters": [ { "name": "tap", "center": [0.2, 0.3], "velocity": [0, -1], "radius": 0.05 } ],
+  "events": [ { "at": 0.05, "set": { "gravity": [3, -9] } } ],
+  "time": { "duration": 0.12, "fps": 200, "integrator": "velocity_verlet" },
+  "render": { "size": [160, 120] }
+}"#;
+const FRAMES: u32 = 25;
+
+struct Place {
+    temporary: tempfile::TempDir,
+}
+
+impl Place {
+    fn new() -> Self {
+        let temporary = tempfile::tempdir().unwrap();
+        fs::write(temporary.path().join("scene.json"), SCENE).unwrap();
+        Self { temporary }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.temporary.path().join(name)
+    }
+
+    fn sliceflow(&self, args: &[&str]) -> Command {
+        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("sliceflow"));
+        command.current_dir(self.temporary.path()).args(args);
+        command.args(["--progress", "plain"]);
+        command
+    }
+
+    fn run(&self, out: &str, more: &[&str]) -> Command {
+        let args = ["run", "scene.json", "--out", out, "--particles", "npy"];
+        self.sliceflow(&[&args, more].concat())
+    }
+
+    /// Standard error of a command that ends with this status.
+    fn told(&self, command: &mut Command, status: i32) -> String {
+        let output = command.output().unwrap();
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(status), "{told}");
+        told
+    }
+
+    fn files(&self, run: &str) -> BTreeMap<String, Vec<u8>> {
+        let root = self.path(run);
+        let mut found = BTreeMap::new();
+        let mut folders = vec![root.clone()];
+        while let Some(inside) = folders.pop() {
+            for entry in fs::read_dir(inside).unwrap() {
+                let path = entry.unwrap().path();
+                let name = path.strip_prefix(&root).unwrap().display().to_string();
+                if path.is_dir() {
+                    folders.push(path);
+                } else if name != "run.json" && !name.starts_with("checkpoint_") {
+                    found.insert(name, fs::read(path).unwrap());
+                }
+            }
+        }
+        found
+    }
+
+    /// Frames, particle files and statistics of two runs from frame `first` on are the same bytes, and nothing is
+    /// missing or too much.
+    fn assert_same(&self, one: &str, two: &str, what: &str) {
+        let (one, two) = (self.files(one), self.files(two));
+        assert_eq!(
+            one.keys().collect::<Vec<_>>(),
+            two.keys().collect::<Vec<_>>(),
+            "{what}"
+        );
+        for (name, bytes) in &one {
+            assert!(bytes == &two[name], "{what}: {name} differs");
+        }
+    }
+
+    fn manifest(&self, run: &str) -> Value {
+        serde_json::from_slice(&fs::read(self.path(run).join("run.json")).unwrap()).unwrap()
+    }
+
+    fn checkpoints(&self, run: &str) -> Vec<String> {
+        let entries = fs::read_dir(self.path(run)).unwrap();
+        let names = entries.map(|e| e.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<_> = names.filter(|n| n.starts_with("checkpoint_")).collect();
+        names.sort();
+        names
+    }
+}
+
+fn start(command: &mut Command) -> Child {
+    command.stderr(Stdio::null()).spawn().unwrap()
+}
+
+fn wait_for(path: &Path, run: &mut Child) {
+    let patience = Instant::now();
+    while !path.exists() && run.try_wait().unwrap().is_none() {
+        assert!(patience.elapsed() < Duration::from_secs(120));
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+/// Kills a run, and what goes on with it, at `kills` random moments; the end is the bytes of a run that nobody killed.
+fn kill_and_resume(kills: u32, seed: u64) {
+    let place = Place::new();
+    let began = Instant::now();
+    place.told(&mut place.run("whole", &[]), 0);
+    let whole = began.elapsed();
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut killed = 0;
+    let mut round = 0;
+    while killed < kills {
+        round += 1;
+        let out = format!("run_{round}");
+        let every = ["--checkpoint-every", ["1", "3", "7"][round % 3]];
+        let mut next = place.run(&out, &every);
+        loop {
+            let mut run = start(&mut next);
+            let share = f64::from(random.next_u32()) / f64::from(u32::MAX);
+            let until = Instant::now() + whole.mul_f64(share);
+            while Instant::now() < until && run.try_wait().unwrap().is_none() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            let ended = run.try_wait().unwrap().is_some();
+            // SIGKILL.
+            run.kill().unwrap();
+            let status = run.wait().unwrap();
+            if ended {
+                assert!(status.success(), "{status}");
+                break;
+            }
+            killed += 1;
+            // A run killed before it wrote its manifest left nothing to go on with.
+            next = match place.path(&out).join("run.json").exists() {
+                true => place.sliceflow(&["resume", &out]),
+                false => place.run(&out, &every),
+            };
+            if killed == kills {
+                place.told(&mut next, 0);
+                break;
+            }
+        }
+        place.assert_same("whole", &out, &format!("seed {seed}, round {round}"));
+        let manifest = place.manifest(&out);
+        assert_eq!(
+            (&manifest["status"], &manifest["frames_done"]),
+            (&"finished".into(), &FRAMES.into())
+        );
+        assert_eq!(
+            manifest["particle_steps"],
+            place.manifest("whole")["particle_steps"]
+        );
+    }
+}
+
+#[test]
+fn killed_at_random_moments_it_comes_to_the_same_bytes() {
+    kill_and_resume(5, 1);
+}
+
+/// The whole promise; takes minutes.
+#[test]
+#[ignore = "long"]
+fn killed_twenty_times_it_comes_to_the_same_bytes() {
+    kill_and_resume(20, 2);
+}
+
+#[test]
+fn a_damaged_checkpoint_is_told_and_the_one_before_it_is_used() {
+    let place = Place::new();
+    place.told(
+        &mut place.run("whole", &["--checkpoint-every", "5", "--keep-checkpoints", "3"]),
+        0,
+    );
+    assert_eq!(
+        place.checkpoints("whole"),
+        [15, 20, 24].map(|frame| format!("checkpoint_{frame:06}.bin"))
+    );
+    let copy = Command::new("cp")
+        .args(["-r", "whole", "run"])
+        .current_dir(place.path(""))
+        .status();
+    assert!(copy.unwrap().success());
+    // As if it had been killed behind the last frame: the manifest says that it runs.
+    let manifest = place.path("run/run.json");
+    let text = fs::read_to_string(&manifest).unwrap();
+    fs::write(
+        &manifest,
+        text.replace(r#""status": "finished""#, r#""status": "running""#),
+    )
+    .unwrap();
+    let newest = place.path("run/checkpoint_000024.bin");
+    let mut bytes = fs::read(&newest).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&newest, &bytes).unwrap();
+    fs::write(place.path("run/checkpoint_000020.bin"), "").unwrap();
+    fs::remove_file(place.path("run/frame_000018.png")).unwrap();
+    fs::write(place.path("run/frame_000030.png.part"), "half").unwrap();
+
+    let told = place.told(&mut place.sliceflow(&["resume", "run"]), 0);
+    assert!(told.contains("checkpoint_000024.bin is damaged"), "{told}");
+    assert!(told.contains("checkpoint_000020.bin is cut off"), "{told}");
+    assert!(told.contains("behind frame 15"), "{told}");
+    assert!(told.contains("removed") && told.contains("made again"), "{told}");
+    place.assert_same("whole", "run", "two damaged checkpoints");
+
+    // Nothing is left to do.
+    let told = place.told(&mut place.sliceflow(&["resume", "run"]), 0);
+    assert!(told.contains("is finished"), "{told}");
+    // Without any checkpoint it begins anew.
+    for name in place.checkpoints("run") {
+        fs::remove_file(place.path("run").join(name)).unwrap();
+    }
+    let text = fs::read_to_string(&manifest).unwrap();
+    fs::write(
+        &manifest,
+        text.replace(r#""status": "finished""#, r#""status": "running""#),
+    )
+    .unwrap();
+    let told = place.told(&mut place.sliceflow(&["resume", "run"]), 0);
+    assert!(told.contains("beginning with frame 0"), "{told}");
+    place.assert_same("whole", "run", "no checkpoint");
+}
+
+#[test]
+fn a_stopped_run_goes_on_where_it_was_and_a_finished_one_grows() {
+    let place = Place::new();
+    place.told(&mut place.run("whole", &[]), 0);
+    let mut run = start(&mut place.run("run", &[]));
+    wait_for(&place.path("run/frame_000002.png"), &mut run);
+    // Nobody else may write into it meanwhile.
+    let told = place.told(&mut place.sliceflow(&["resume", "run"]), 2);
+    assert!(told.contains("another run"), "{told}");
+    Command::new("kill")
+        .args(["-INT", &run.id().to_string()])
+        .status()
+        .unwrap();
+    assert_eq!(run.wait().unwrap().code(), Some(130));
+    let done = place.manifest("run")["frames_done"].as_u64().unwrap();
+    assert!(done < FRAMES.into(), "{done}");
+    assert_eq!(
+        place.checkpoints("run"),
+        [format!("checkpoint_{:06}.bin", done - 1)]
+    );
+
+    // Shorter first, then to the length that the whole run has.
+    let told = place.told(&mut place.sliceflow(&["resume", "run", "--frames", "1"]), 2);
+    assert!(told.contains("frames already"), "{told}");
+    let middle = (done + 1).to_string();
+    place.told(&mut place.sliceflow(&["resume", "run", "--frames", &middle]), 0);
+    assert_eq!(place.manifest("run")["frames_done"], done + 1);
+    place.told(
+        &mut place.sliceflow(&["resume", "run", "--frames", &FRAMES.to_string()]),
+        0,
+    );
+    place.assert_same("whole", "run", "stopped, short, long");
+}
+
+#[test]
+fn a_variant_has_a_folder_of_its_own_and_goes_on_too() {
+    let place = Place::new();
+    let often = ["--checkpoint-every", "10", "--keep-checkpoints", "3"];
+    place.told(&mut place.run("whole", &often), 0);
+    let before = place.files("whole");
+    // Frame 13 has no checkpoint.
+    let told = place.told(&mut place.sliceflow(&["resume", "whole", "--branch-at", "13"]), 0);
+    assert!(told.contains("frames 11 to 13"), "{told}");
+    let same = place.files("whole_at_13");
+    assert_eq!(same.len(), 12 * (1 + 6) + 1);
+    for (name, bytes) in &same {
+        match name.as_str() {
+            "stats.jsonl" => assert!(before[name].ends_with(bytes), "statistics differ"),
+            _ => assert!(
+                bytes == &before[name],
+                "{name} differs though nothing was changed"
+            ),
+        }
+    }
+
+    let changed = [
+        "resume",
+        "whole",
+        "--branch-at",
+        "13",
+        "--set",
+        "gravity=[0,0]",
+        "--out",
+        "other",
+    ];
+    place.told(&mut place.sliceflow(&changed), 0);
+    let other = place.files("other");
+    let position = |frame: u32| format!("particles_{frame:06}/position.npy");
+    assert_eq!(other[&position(13)], before[&position(13)]);
+    assert_ne!(other[&position(14)], before[&position(14)]);
+    assert!(place.files("whole") == before, "the first run is as it was");
+    let manifest = place.manifest("other");
+    assert_eq!(manifest["recipe"]["first_frame"], 13);
+    assert_eq!(manifest["frames_done"], 12);
+
+    // A variant is killed at once, and goes on from its first checkpoint.
+    let mut run =
+        start(&mut place.sliceflow(&[&changed[..7], &["third", "--checkpoint-every", "0"]].concat()));
+    wait_for(&place.path("third/frame_000014.png"), &mut run);
+    run.kill().unwrap();
+    run.wait().unwrap();
+    assert_eq!(place.checkpoints("third"), ["checkpoint_000013.bin"]);
+    place.told(&mut place.sliceflow(&["resume", "third"]), 0);
+    place.assert_same("other", "third", "a variant that was killed");
+
+    for (args, expected) in [
+        (&["resume", "whole", "--branch-at", "25"][..], "no frame 25"),
+        (&["resume", "other", "--branch-at", "12"], "--branch-at 13 to 24"),
+        (
+            &[
+                "resume",
+                "whole",
+                "--branch-at",
+                "3",
+                "--set",
+                "time.fps=100",
+                "--out",
+                "x",
+            ],
+            "another moment",
+        ),
+        (
+            &["resume", "whole", "--branch-at", "3", "--out", "other"],
+            "--force",
+        ),
+        (
+            &[
+                "resume",
+                "whole",
+                "--branch-at",
+                "3",
+                "--set",
+                "gravty=1",
+                "--out",
+                "x",
+            ],
+            "gravity",
+        ),
+    ] {
+        let told = place.told(&mut place.sliceflow(args), 2);
+        assert!(told.contains(expected), "{args:?}: {told}");
+        assert!(!place.path("x").exists(), "{args:?}");
+    }
+    let told = place.told(&mut place.sliceflow(&["resume", "nowhere"]), 1);
+    assert!(told.contains("nowhere/run.json"), "{told}");
+}
