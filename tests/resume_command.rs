@@ -305,7 +305,7 @@ fn a_variant_has_a_folder_of_its_own_and_goes_on_too() {
         "--branch-at",
         "13",
         "--set",
-        "gravity=[0,0]",
+        "events[0].set.gravity=[0,0]",
         "--out",
         "other",
     ];
@@ -318,6 +318,21 @@ fn a_variant_has_a_folder_of_its_own_and_goes_on_too() {
     let manifest = place.manifest("other");
     assert_eq!(manifest["recipe"]["first_frame"], 13);
     assert_eq!(manifest["frames_done"], 12);
+
+    let vain = [
+        "resume",
+        "whole",
+        "--branch-at",
+        "13",
+        "--set",
+        "gravity=[0,0]",
+        "--frames",
+        "15",
+        "--out",
+        "vain",
+    ];
+    let told = place.told(&mut place.sliceflow(&vain), 0);
+    assert!(told.contains("--set 'events[0].set.gravity=[0.0,0.0]'"), "{told}");
 
     // A variant is killed at once, and goes on from its first checkpoint.
     let mut run =

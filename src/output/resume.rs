@@ -3,6 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use serde_json::Value;
+
 use super::checkpoint::Checkpoint;
 use super::drive::{Launch, Start, drive, open};
 use super::folder::Folder;
@@ -83,6 +85,9 @@ pub fn branch(recorded: &Recorded, frame: u32, overrides: &[String], settings: &
     check_variant(recipe, &old, &scene, frame)?;
     let folder = Arc::new(Folder::open(&settings.folder, settings.force)?);
     let progress = Progress::new(settings.progress, scene.time.frames);
+    for warning in overruled(&old, &scene, frame) {
+        progress.warn(&warning);
+    }
     let newest = newest(&recorded.folder, recipe, frame, &progress)?;
     if newest.is_none() && recipe.variant_of.is_some() {
         return Err(Error::usage(
@@ -144,6 +149,32 @@ fn check_variant(recipe: &Recipe, old: &Scene, scene: &Scene, frame: u32) -> Res
         ));
     }
     Ok(())
+}
+
+/// Parameters that a variant changes in vain, since an event before its first frame has set them.
+fn overruled(old: &Scene, scene: &Scene, frame: u32) -> Vec<String> {
+    let json = |scene: &Scene| serde_json::to_value(&scene.file).unwrap_or_default();
+    let (old, new) = (json(old), json(scene));
+    let value = |scene: &Value, key: &str| match key {
+        "gravity" => scene["gravity"].clone(),
+        of_grains => scene["grains"][of_grains].clone(),
+    };
+    let begin = f64::from(frame) / scene.time.fps;
+    let mut warnings = Vec::new();
+    for (i, event) in scene.file.events.iter().enumerate() {
+        let set = &new["events"][i]["set"];
+        for key in set.as_object().into_iter().flatten().map(|(key, _)| key) {
+            if event.at < begin && value(&old, key) != value(&new, key) {
+                warnings.push(format!(
+                    "{key} stays as events[{i}] has set it at {} s, before frame {frame}; change it there: \
+                     --set 'events[{i}].set.{key}={}'",
+                    event.at,
+                    value(&new, key)
+                ));
+            }
+        }
+    }
+    warnings
 }
 
 /// The newest whole checkpoint of a run at or before a frame; what is wrong with newer ones is told.
