@@ -116,6 +116,7 @@ impl Scene {
                 legend: false,
             },
             notes,
+            written: Default::default(),
         })
     }
 }
