@@ -75,6 +75,10 @@ pub enum Error {
     Guard(Box<Casualty>),
     /// The command line asks for something that cannot be done.
     Usage { what: String, mend: String },
+    /// Two runs that were compared differ.
+    Different,
+    /// Two runs cannot be compared.
+    Incomparable(Box<Error>),
     /// Ctrl-C; what was finished is on disk.
     Interrupted { frames_done: u32 },
 }
@@ -108,10 +112,11 @@ impl Error {
         }
     }
 
-    /// Exit status of the program: 2 for what the user can mend in the input, 130 after Ctrl-C, 1 otherwise.
+    /// Exit status of the program: 2 for what the user can mend in the input and for runs that cannot be compared, 130
+    /// after Ctrl-C, 1 otherwise.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Scene { .. } | Self::Usage { .. } => 2,
+            Self::Scene { .. } | Self::Usage { .. } | Self::Incomparable(_) => 2,
             Self::Interrupted { .. } => 130,
             _ => 1,
         }
@@ -155,6 +160,8 @@ impl fmt::Display for Error {
                     c.what, c.frame, c.step, c.time, c.id, c.count, c.likely_cause
                 )
             }
+            Self::Different => write!(f, "the runs differ"),
+            Self::Incomparable(reason) => reason.fmt(f),
             Self::Interrupted { frames_done } => {
                 write!(f, "interrupted; {frames_done} finished frame(s) are on disk")
             }

@@ -8,7 +8,7 @@ fn main() -> ExitCode {
     let Err(error) = sliceflow::cli::main() else {
         return ExitCode::SUCCESS;
     };
-    let label = if matches!(error, Error::Interrupted { .. }) {
+    let label = if matches!(error, Error::Interrupted { .. } | Error::Different) {
         ""
     } else {
         "error: "

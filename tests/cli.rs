@@ -55,6 +55,8 @@ fn help_has_examples() {
     for command in [
         "run",
         "resume",
+        "render",
+        "diff",
         "plan",
         "inspect",
         "neighbors",

@@ -2,11 +2,13 @@
 
 mod checkpoint_args;
 mod devices;
+mod diff;
 mod grid;
 mod inspect;
 mod neighbors;
 mod plan;
 mod rerun_args;
+mod render;
 mod resume;
 mod run;
 mod run_args;
@@ -41,6 +43,8 @@ Examples:
 enum Command {
     Run(run::Args),
     Resume(resume::Args),
+    Render(render::Args),
+    Diff(diff::Args),
     Plan(plan::Args),
     Inspect(inspect::Args),
     Neighbors(neighbors::Args),
@@ -55,6 +59,8 @@ pub fn main() -> Result<()> {
     match Cli::parse().command {
         Command::Run(args) => run::main(&args),
         Command::Resume(args) => resume::main(&args),
+        Command::Render(args) => render::main(&args),
+        Command::Diff(args) => diff::main(&args),
         Command::Plan(args) => plan::main(&args),
         Command::Inspect(args) => inspect::main(&args),
         Command::Neighbors(args) => neighbors::main(&args),

@@ -99,7 +99,7 @@ pub fn duration(frames: u32, fps: f64) -> f64 {
     f64::from(frames.saturating_sub(1)).max(1e-3) / fps
 }
 
-fn size(text: &str) -> std::result::Result<[u32; 2], String> {
+pub fn size(text: &str) -> std::result::Result<[u32; 2], String> {
     let sides = text
         .split_once(['x', 'X', '×'])
         .map(|(w, h)| (w.trim().parse(), h.trim().parse()));

@@ -207,6 +207,10 @@ mod tests {
         fs::create_dir(folder.particles(0)).unwrap();
         fs::write(folder.particles(0).join("id.npy"), b"").unwrap();
 
+                let busy = Folder::open(&path, true).unwrap_err().to_string();
+        assert!(busy.contains("another run is writing"), "{busy}");
+        drop(folder);
+
         let refused = Folder::open(&path, false).unwrap_err();
         assert_eq!(refused.exit_code(), 2);
         let message = refused.to_string();

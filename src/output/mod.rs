@@ -2,6 +2,7 @@
 
 mod checkpoint;
 mod clock;
+pub mod compare;
 mod disk;
 mod drive;
 mod estimate;
@@ -16,7 +17,9 @@ pub mod plot;
 mod png;
 pub mod progress;
 pub mod rerun;
+mod read_back;
 mod recipe;
+mod redraw;
 mod resume;
 mod rewind;
 mod run;
@@ -34,6 +37,7 @@ pub use particles::{DEFAULT_COLUMNS, columns_named};
 pub use png::{compose as compose_picture, encode as encode_png};
 pub use progress::Progress;
 pub use recipe::Recorded;
+pub use redraw::redraw;
 pub use resume::{branch, resume};
 pub use run::{Outputs, Settings, run};
 pub use tally::Tally;

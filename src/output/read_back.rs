@@ -1,0 +1,175 @@
+//! Particles of a run's frames, read back from its NumPy arrays or its checkpoints.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+use super::checkpoint::Checkpoint;
+use super::rewind::numbered;
+use crate::error::{Error, Result};
+use crate::scene::Dimensions;
+use crate::simulation::State;
+
+/// Which frames of a run can be read back, and from what.
+pub struct ReadBack {
+    frames: BTreeMap<u32, PathBuf>,
+}
+
+/// One frame.
+pub struct Snapshot {
+    /// In order of id.
+    pub columns: Vec<Column>,
+    /// Where it comes from a checkpoint.
+    pub state: Option<State>,
+}
+
+/// One column of a frame.
+pub struct Column {
+    pub name: String,
+    /// Numbers a particle.
+    pub width: usize,
+    /// In order of id.
+    pub values: Vec<f64>,
+}
+
+impl ReadBack {
+    /// Looks into a run's folder; arrays come before checkpoints, since they hold more.
+    pub fn open(folder: &Path) -> Result<Self> {
+        let mut frames = BTreeMap::new();
+        for (frame, path) in numbered(folder)? {
+            let name = path
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned();
+            if name.starts_with("particles_") && path.is_dir() {
+                frames.insert(frame, path);
+            } else if name.starts_with("checkpoint_") && name.ends_with(".bin") {
+                frames.entry(frame).or_insert(path);
+            }
+        }
+        Ok(Self { frames })
+    }
+
+    /// In order.
+    pub fn frames(&self) -> impl Iterator<Item = u32> {
+        self.frames.keys().copied()
+    }
+
+    /// `None` where there is no such frame.
+    pub fn read(&self, frame: u32) -> Result<Option<Snapshot>> {
+        let Some(path) = self.frames.get(&frame) else {
+            return Ok(None);
+        };
+        let snapshot = if path.is_dir() {
+            Snapshot::from_arrays(path)
+        } else {
+            Snapshot::from_checkpoint(path)
+        };
+        snapshot.map(Some)
+    }
+}
+
+impl Snapshot {
+    pub fn column(&self, name: &str) -> Option<&Column> {
+        self.columns.iter().find(|column| column.name == name)
+    }
+
+    pub fn particles(&self) -> usize {
+        self.columns.first().map_or(0, Column::particles)
+    }
+
+    fn from_arrays(folder: &Path) -> Result<Self> {
+        let failed = |path: &Path, reason: &dyn std::fmt::Display| {
+            Error::file(
+                path,
+                "read",
+                reason,
+                "was it written whole? `sliceflow resume` makes it again",
+            )
+        };
+        let mut paths = Vec::new();
+        for entry in std::fs::read_dir(folder).map_err(|reason| failed(folder, &reason))? {
+            let path = entry.map_err(|reason| failed(folder, &reason))?.path();
+            if path.extension().is_some_and(|extension| extension == "npy") {
+                paths.push(path);
+            }
+        }
+        paths.sort();
+        let columns = paths
+            .iter()
+            .map(|path| Column::from_npy(path).map_err(|reason| failed(path, &reason)))
+            .collect::<Result<_>>()?;
+        Ok(Self { columns, state: None })
+    }
+
+    fn from_checkpoint(path: &Path) -> Result<Self> {
+        let state = Checkpoint::read(path)
+            .map_err(|wrong| Error::file(path, "read", wrong, "remove it, and do without its frame"))?
+            .state;
+        let mut slot_of = vec![0; state.particles as usize];
+        for (slot, id) in state.ids().into_iter().enumerate() {
+            slot_of[id as usize] = slot;
+        }
+        let width = match state.dimensions {
+            Dimensions::Two => 2,
+            Dimensions::Three => 3,
+        };
+        let column = |name: &str| {
+            let vectors = state.vectors(name)?;
+            let origin = if name == "position" {
+                state.origin
+            } else {
+                Default::default()
+            };
+            let values = slot_of.iter().flat_map(|&slot| {
+                let vector = (vectors[slot].as_dvec3() + origin).to_array();
+                vector.into_iter().take(width)
+            });
+            Some(Column {
+                name: name.to_owned(),
+                width,
+                values: values.collect(),
+            })
+        };
+        let columns = ["position", "velocity", "acceleration"];
+        Ok(Self {
+            columns: columns.into_iter().filter_map(column).collect(),
+            state: Some(state),
+        })
+    }
+}
+
+impl Column {
+    pub fn particles(&self) -> usize {
+        self.values.len() / self.width
+    }
+
+    fn from_npy(path: &Path) -> std::io::Result<Self> {
+        let array = npyz::NpyFile::new(BufReader::new(File::open(path)?))?;
+        let width = array.shape().get(1).map_or(1, |&width| width as usize);
+        let values = match array.try_data::<f64>() {
+            Ok(data) => data.collect::<std::io::Result<_>>()?,
+            Err(array) => match array.try_data::<f32>() {
+                Ok(data) => data
+                    .map(|value| value.map(f64::from))
+                    .collect::<std::io::Result<_>>()?,
+                Err(array) => array
+                    .data::<u32>()
+                    .map_err(std::io::Error::other)?
+                    .map(|value| value.map(f64::from))
+                    .collect::<std::io::Result<_>>()?,
+            },
+        };
+        Ok(Self {
+            name: path
+                .file_stem()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned(),
+            width,
+            values,
+        })
+    }
+}

@@ -1,0 +1,201 @@
+//! Pictures of a run's particles, drawn again without simulating.
+
+use std::sync::Arc;
+
+use glam::{DVec3, Vec3};
+use serde_json::Value;
+
+use super::drive::open;
+use super::folder::Folder;
+use super::interrupt;
+use super::manifest::Manifest;
+use super::progress::Progress;
+use super::read_back::{ReadBack, Snapshot};
+use super::recipe::Recorded;
+use super::run::Settings;
+use super::tally::Tally;
+use super::text::seconds;
+use crate::error::{Error, Result};
+use crate::plan::{Plan, Wanted};
+use crate::scene::Scene;
+use crate::simulation::frame::Frame;
+use crate::simulation::{Simulation, State};
+
+/// Keys of a scene that change pictures and nothing else.
+const DRAWN: [&str; 6] = ["render", "neighbors", "name", "description", "source", "$schema"];
+/// The same of a collider.
+const DRAWN_OF_COLLIDERS: [&str; 2] = ["color", "visible"];
+/// Columns that cannot be drawn without velocities.
+const OF_VELOCITY: [&str; 5] = ["speed", "velocity_x", "velocity_y", "velocity_z", "pressure"];
+
+/// Draws the frames of a run that have particle files or checkpoints once more, with the scene changed by `overrides`,
+/// into the folder of `settings`.
+pub fn redraw(recorded: &Recorded, overrides: &[String], settings: &Settings) -> Result<()> {
+    let recipe = recorded.recipe()?;
+    let mut scene = recipe.scene(overrides)?;
+    check_changes(&recipe.scene(&[])?, &scene)?;
+    let source = ReadBack::open(&recorded.folder)?;
+    let mut frames = Vec::new();
+    for frame in source.frames() {
+        if let Some(snapshot) = source.read(frame)?.filter(|s| s.column("position").is_some()) {
+            check_color(&scene, &snapshot, frame)?;
+            scene.capacity = scene.capacity.max(snapshot.particles() as u32);
+            frames.push(frame);
+        }
+    }
+    let from = recorded.folder.display();
+    let (Some(first), Some(last)) = (frames.first(), frames.last()) else {
+        return Err(Error::usage(
+            format!("{from} holds no particles to draw: neither arrays with positions nor checkpoints"),
+            "run it again with --particles npy, or with --checkpoint-every 1 --keep-checkpoints 1000000",
+        ));
+    };
+    let folder = Arc::new(Folder::open(&settings.folder, settings.force)?);
+    let progress = Progress::new(settings.progress, frames.len() as u32);
+    let made = recipe.first_frame..recipe.first_frame + recorded.frames_done;
+    let missing = made.filter(|frame| frames.binary_search(frame).is_err()).count();
+    let missing = match missing {
+        0 => String::new(),
+        missing => format!("; {missing} others have neither arrays nor checkpoints"),
+    };
+    progress.note(&format!(
+        "drawing {} frames of {from}, from {first} to {last}{missing}",
+        frames.len()
+    ));
+
+    let gpu = open(settings, &progress)?;
+    let wanted = Wanted {
+        statistics: true,
+        view: Some(scene.render.view),
+        ..Default::default()
+    };
+    let plan = Plan::new(&scene, &gpu.limits, &wanted)?;
+    let mut simulation = Simulation::new(gpu, &scene, &plan)?;
+    if let Some(told) = folder.clear()? {
+        progress.note(&told);
+    }
+    let mut sinks = settings.outputs.sinks(&scene, &folder)?;
+    let mut tally = Tally::start(frames.len() as u32);
+    let mut manifest = Manifest::new(
+        folder.manifest(),
+        &scene,
+        &plan,
+        simulation.gpu(),
+        &settings.command_line,
+        settings.outputs.files(&scene),
+    );
+    manifest.drawn_from = Some(std::path::absolute(&recorded.folder).unwrap_or_default());
+    manifest.update(tally)?;
+    interrupt::listen();
+
+    let mut progress = progress;
+    let mut take = |frame: Frame| -> Result<()> {
+        let frame = Arc::new(frame);
+        for sink in &mut sinks {
+            sink.frame(&frame)?;
+        }
+        tally.add(&frame);
+        progress.frame(&frame, &tally);
+        Ok(())
+    };
+    let mut draw = || -> Result<()> {
+        for &frame in &frames {
+            if interrupt::asked() {
+                break;
+            }
+            let Some(snapshot) = source.read(frame)? else {
+                continue;
+            };
+            simulation.restore(&state(&scene, frame, snapshot))?;
+            simulation.show(frame)?.map_or(Ok(()), &mut take)?;
+        }
+        while let Some(frame) = simulation.finish_frame()? {
+            take(frame)?;
+        }
+        Ok(())
+    };
+    let drawn = draw();
+    let finished: Vec<_> = sinks.iter_mut().map(|sink| sink.finish()).collect();
+    let mut outcome = finished.into_iter().fold(drawn, Result::and);
+    let done = tally.frames_done;
+    if outcome.is_ok() && done < tally.frames {
+        outcome = Err(Error::Interrupted { frames_done: done });
+    }
+    tally.stop_clock();
+    progress.finish(
+        &format!(
+            "{done} frames in {} ({})",
+            folder.path().display(),
+            seconds(tally.wall_s)
+        ),
+        &tally,
+    );
+    let closed = manifest.close(tally, &outcome);
+    outcome.and(closed)
+}
+
+/// What the device starts from to draw a frame.
+fn state(scene: &Scene, frame: u32, snapshot: Snapshot) -> State {
+    let vectors = |name: &str| -> Vec<DVec3> {
+        let vector = |v: &[f64]| DVec3::new(v[0], v[1], v.get(2).copied().unwrap_or(0.0));
+        let column = snapshot.column(name);
+        column.map_or_else(Vec::new, |c| c.values.chunks_exact(c.width).map(vector).collect())
+    };
+    let position = vectors("position");
+    let mut velocity: Vec<Vec3> = vectors("velocity").iter().map(|v| v.as_vec3()).collect();
+    velocity.resize(position.len(), Vec3::ZERO);
+    match snapshot.state {
+        Some(state) => state.with_origin(scene.origin),
+        None => State::of_particles(scene, frame, &position, &velocity),
+    }
+}
+
+/// Colors may need what particle files do not hold; contacts and densities are measured again.
+fn check_color(scene: &Scene, snapshot: &Snapshot, frame: u32) -> Result<()> {
+    let column = scene.color.column.name;
+    if OF_VELOCITY.contains(&column) && snapshot.column("velocity").is_none() {
+        return Err(Error::usage(
+            format!("frame {frame} cannot be colored by {column}: its particle files have no velocity"),
+            "choose another color, such as --set render.color.by=y, or run again with --columns position,velocity",
+        ));
+    }
+    Ok(())
+}
+
+/// Refuses changes that would need a simulation.
+fn check_changes(old: &Scene, new: &Scene) -> Result<()> {
+    let json = |scene: &Scene| serde_json::to_value(&scene.file).unwrap_or_default();
+    let mut changed = Vec::new();
+    let (old, new) = (json(old), json(new));
+    let simulated = |value: &Value, drawn: &[&str]| {
+        let mut value = value.clone();
+        if let Some(keys) = value.as_object_mut() {
+            keys.retain(|key, _| !drawn.contains(&key.as_str()));
+        }
+        value
+    };
+    for (key, value) in new.as_object().into_iter().flatten() {
+        let list = |colliders: &Value| -> Vec<Value> {
+            let colliders = colliders.as_array().into_iter().flatten();
+            colliders.map(|c| simulated(c, &DRAWN_OF_COLLIDERS)).collect()
+        };
+        let is_same = match key.as_str() {
+            key if DRAWN.contains(&key) => true,
+            "colliders" => list(value) == list(&old[key]),
+            _ => *value == old[key],
+        };
+        if !is_same {
+            changed.push(key.as_str());
+        }
+    }
+    if changed.is_empty() {
+        return Ok(());
+    }
+    Err(Error::usage(
+        format!(
+            "nothing is simulated, so `{}` cannot change",
+            changed.join("`, `")
+        ),
+        "change `render`, `neighbors`, or a collider's color; `sliceflow resume RUN --branch-at FRAME` simulates",
+    ))
+}
