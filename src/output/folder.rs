@@ -207,7 +207,7 @@ mod tests {
         fs::create_dir(folder.particles(0)).unwrap();
         fs::write(folder.particles(0).join("id.npy"), b"").unwrap();
 
-                let busy = Folder::open(&path, true).unwrap_err().to_string();
+        let busy = Folder::open(&path, true).unwrap_err().to_string();
         assert!(busy.contains("another run is writing"), "{busy}");
         drop(folder);
 

@@ -233,7 +233,12 @@ impl Simulation {
         if grid == self.plan.grid || Grid::new(&self.scene, axis).with_room(grid.room()) != grid {
             return Ok(());
         }
-        self.rebuild(Plan::with_grid(&self.scene, &self.gpu.limits, &self.plan.wanted, grid)?)
+        self.rebuild(Plan::with_grid(
+            &self.scene,
+            &self.gpu.limits,
+            &self.plan.wanted,
+            grid,
+        )?)
     }
 
     /// Has the present state observed and drawn once more, as frame `index`, and sends it on its way. Returns an older
