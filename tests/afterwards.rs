@@ -216,8 +216,7 @@ fn limited(place: &Place, blocks: u32, args: &str) -> Command {
 fn a_full_disk_ends_a_run_and_damages_nothing() {
     let place = Place::new();
     // Statistics grow past 128 KiB, while every other file stays smaller.
-    let args =
-        "run scene.json --particles npy --columns id --size 32x24 --frames 400 --checkpoint-every 40 --out";
+    let args = "run scene.json --particles npy --columns id --size 32x24 --frames 400 --fps 4000 --checkpoint-every 40 --out";
     let whole: Vec<&str> = args.split(' ').chain(["whole"]).collect();
     place.told(&mut place.sliceflow(&whole), 0);
     let told = place.told(&mut limited(&place, 256, &format!("{args} run")), 1);
