@@ -11,7 +11,7 @@ fn wanted() -> Wanted {
     Wanted {
         statistics: true,
         columns: columns_named(["position", "velocity", "contacts", "pressure"]).expect("columns"),
-        view: None,
+        ..Default::default()
     }
 }
 

@@ -277,3 +277,22 @@ fn a_variant_has_a_folder_of_its_own_and_goes_on_too() {
     let told = place.told(&mut place.sliceflow(&["resume", "nowhere"]), 1);
     assert!(told.contains("nowhere/run.json"), "{told}");
 }
+
+#[cfg(feature = "rerun")]
+#[test]
+fn recordings_of_what_comes_later_are_files_of_their_own() {
+    let place = Place::new();
+    place.told(
+        &mut place.run("run", &["--frames", "4", "--rerun", "session.rrd"]),
+        0,
+    );
+    let recorded = fs::read(place.path("session.rrd")).unwrap();
+    let branch = ["resume", "run", "--branch-at", "2", "--out", "variant"];
+    place.told(&mut place.sliceflow(&branch), 0);
+    let told = place.told(&mut place.sliceflow(&["resume", "run", "--frames", "6"]), 0);
+    assert!(told.contains("session_from_4.rrd"), "{told}");
+    for name in ["variant/session_from_2.rrd", "session_from_4.rrd"] {
+        assert!(place.path(name).exists(), "{name}");
+    }
+    assert!(fs::read(place.path("session.rrd")).unwrap() == recorded);
+}

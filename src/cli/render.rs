@@ -70,6 +70,7 @@ pub fn main(args: &Args) -> Result<()> {
             pictures: true,
             statistics: false,
             particles: Vec::new(),
+            rerun: None,
             checkpoints: Checkpoints {
                 every: Every::Never,
                 ..Default::default()

@@ -1,7 +1,7 @@
 //! Arguments that `run` and `plan` share: the scene and what to write.
 
-use super::rerun_args::RerunArgs;
 use super::checkpoint_args::CheckpointArgs;
+use super::rerun_args::RerunArgs;
 use super::scene_args::{Choices, SceneArgs};
 use crate::error::Result;
 use crate::output::{Checkpoints, DEFAULT_COLUMNS, Outputs, columns_named};
@@ -34,6 +34,7 @@ pub struct RunArgs {
     no_statistics: bool,
     #[command(flatten)]
     rerun: RerunArgs,
+    #[command(flatten)]
     checkpoints: CheckpointArgs,
 }
 

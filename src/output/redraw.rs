@@ -74,7 +74,7 @@ pub fn redraw(recorded: &Recorded, overrides: &[String], settings: &Settings) ->
     if let Some(told) = folder.clear()? {
         progress.note(&told);
     }
-    let mut sinks = settings.outputs.sinks(&scene, &folder)?;
+    let mut sinks = settings.outputs.sinks(&scene, &plan, &folder, &progress)?;
     let mut tally = Tally::start(frames.len() as u32);
     let mut manifest = Manifest::new(
         folder.manifest(),

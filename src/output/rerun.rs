@@ -63,13 +63,13 @@ pub enum Target {
 }
 
 impl Settings {
-    /// For a run that begins with frame `frame`, of settings whose paths start from `folder`: nothing can be appended to
-    /// a recording, so the rest goes into a file of its own, `NAME_from_FRAME.rrd`.
-    pub fn part_from(&self, frame: u32, folder: &Path) -> Self {
+    /// For a run that begins with frame `frame`: nothing can be appended to a recording, so the rest goes into a file of
+    /// its own, `NAME_from_FRAME.rrd`, in the folder that `folder_of` says for a path.
+    pub fn part_from(&self, frame: u32, folder_of: impl Fn(&Path) -> PathBuf) -> Self {
         let part = |target: &Target| match target {
             Target::File(path) => {
                 let name = path.file_stem().unwrap_or_default().to_string_lossy();
-                Target::File(folder.join(path.with_file_name(format!("{name}_from_{frame}.rrd"))))
+                Target::File(folder_of(path).join(format!("{name}_from_{frame}.rrd")))
             }
             other => other.clone(),
         };

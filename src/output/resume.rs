@@ -66,9 +66,11 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
             Start::Again
         }
     };
+    let next = start.state().map_or(0, |state| state.frame + 1);
+    let settings = part_from(settings, next, recipe.variant_of.is_some(), &recipe, &progress);
     drive(Launch {
         scene: &scene,
-        settings,
+        settings: &settings,
         folder,
         progress,
         recipe,
@@ -83,8 +85,12 @@ pub fn branch(recorded: &Recorded, frame: u32, overrides: &[String], settings: &
     let mut old = recipe.scene_unchanged(&[])?;
     let mut scene = recipe.scene(overrides)?;
     check_variant(recipe, &old, &scene, frame)?;
-    let folder = Arc::new(Folder::open(&settings.folder, settings.force)?);
     let progress = Progress::new(settings.progress, scene.time.frames);
+    let settings = &part_from(settings, frame, true, recipe, &progress);
+    if let Some(rerun) = &settings.outputs.rerun {
+        rerun.check(&scene, settings.outputs.pictures, settings.force)?;
+    }
+    let folder = Arc::new(Folder::open(&settings.folder, settings.force)?);
     for warning in overruled(&old, &scene, frame) {
         progress.warn(&warning);
     }
@@ -117,6 +123,31 @@ pub fn branch(recorded: &Recorded, frame: u32, overrides: &[String], settings: &
         start: Start::With(Box::new(state)),
         wall_s: 0.0,
     })
+}
+
+/// Settings for a run that begins with frame `first`: what cannot be appended to gets another name, which is told. A
+/// variant keeps all its files in its own folder.
+fn part_from(
+    settings: &Settings,
+    first: u32,
+    is_variant: bool,
+    recipe: &Recipe,
+    progress: &Progress,
+) -> Settings {
+    let folder_of = |path: &Path| match path.parent() {
+        Some(parent) if !is_variant => recipe.working_folder.join(parent),
+        _ => settings.folder.clone(),
+    };
+    let mut part = settings.clone();
+    if let Some(rerun) = &mut part.outputs.rerun {
+        *rerun = rerun.part_from(first, folder_of);
+        let targets: Vec<_> = rerun.targets.iter().map(ToString::to_string).collect();
+        progress.note(&format!(
+            "recording frames from {first} on into {}",
+            targets.join(", ")
+        ));
+    }
+    part
 }
 
 fn check_variant(recipe: &Recipe, old: &Scene, scene: &Scene, frame: u32) -> Result<()> {

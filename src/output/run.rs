@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::{Sink, rerun};
 use super::drive::{Launch, Start, drive};
 use super::folder::Folder;
 use super::keeper::{Checkpoints, Every};
@@ -13,6 +12,7 @@ use super::png::Pictures;
 use super::progress::{self, Progress};
 use super::recipe::Recipe;
 use super::statistics::StatisticsFile;
+use super::{Sink, rerun};
 use crate::error::Result;
 use crate::gpu::AdapterChoice;
 use crate::plan::{Plan, Wanted};
