@@ -5,6 +5,7 @@ mod common;
 use glam::Vec3;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use sliceflow::gpu::device::Limits;
 use sliceflow::gpu::{AdapterChoice, Gpu};
 use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
 use sliceflow::plan::{Plan, Wanted};
@@ -402,8 +403,8 @@ fn particles_of_a_voxel_stand_in_canonical_order() {
     let points: Vec<Vec3> = (0..4000)
         .map(|_| min + 3.9 * reach * Vec3::new(rng.random(), rng.random(), rng.random()))
         .collect();
-    for addressing in ADDRESSINGS.iter().map(|row| row.name) {
-        let scene = scene_of(3, (addressing, "counting"), "y", 4, &points);
+    for name in grids().into_iter().filter(|grid| grid.1 != "pool") {
+        let scene = scene_of(3, name, "y", 4, &points);
         let grid = sliceflow::neighbors::first_grid(&scene);
         let voxel = |id: u32| {
             let p = points[id as usize];
@@ -418,9 +419,52 @@ fn particles_of_a_voxel_stand_in_canonical_order() {
             for pair in ids.windows(2) {
                 assert!(
                     voxel(pair[0]) != voxel(pair[1]) || pair[0] < pair[1],
-                    "{addressing}: {pair:?}"
+                    "{name:?}: {pair:?}"
                 );
             }
         }
     }
+}
+
+#[test]
+fn without_a_canonical_order_neighbors_are_the_same() {
+    let points = random(3, 3000, 9);
+    for grid in grids() {
+        let mut scene = scene_of(3, grid, "y", 64, &points);
+        let repeatable = Plan::new(&scene, &Limits::PROMISED, &Wanted::default()).unwrap();
+        scene.neighbors.deterministic = false;
+        let plan = Plan::new(&scene, &Limits::PROMISED, &Wanted::default()).unwrap();
+        let saved = |count: fn(&Plan) -> usize| count(&repeatable) - count(&plan);
+        let saved = (saved(|plan| plan.passes.len()), saved(|plan| plan.buffers.len()));
+        // The scatter, at the start and each step, and its buffer.
+        assert_eq!(
+            saved,
+            if grid.1 == "counting" { (2, 1) } else { (0, 0) },
+            "{grid:?}"
+        );
+        let noted = plan
+            .notes
+            .iter()
+            .any(|note| note.contains("neighbors.deterministic"));
+        assert_eq!(noted, ["radix", "bitonic"].contains(&grid.1), "{grid:?}");
+
+        let mut simulation = common::simulate(&scene, &Wanted::default());
+        simulation.next_frame().unwrap();
+        let found = simulation.neighbor_lists().unwrap();
+        let (start, ids) = brute_force(&points, (2.0 * scene.grains.radius) as f32);
+        assert!(found.start == start && found.ids == ids, "{grid:?}");
+    }
+}
+
+#[test]
+fn a_pool_without_a_canonical_order_reports_what_it_has_no_room_for() {
+    let (min, _, reach) = corners(3);
+    let points = vec![min + Vec3::ONE * 0.5 * reach; 11];
+    let mut scene = scene_of(3, ("uniform", "pool"), "y", 4, &points);
+    scene.neighbors.deterministic = false;
+    let mut simulation = common::simulate(&scene, &Wanted::default());
+    simulation.next_frame().unwrap();
+    assert_eq!(simulation.finish_frame().unwrap().unwrap().overflow, 7);
+    // Whoever has the slots: each of the four is seen by the ten others.
+    assert_eq!(simulation.neighbor_lists().unwrap().ids.len(), 4 * 10);
 }

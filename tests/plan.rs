@@ -4,6 +4,7 @@ mod common;
 
 use sliceflow::error::Error;
 use sliceflow::gpu::device::Limits;
+use sliceflow::neighbors::STORAGES;
 use sliceflow::output::columns_named;
 use sliceflow::plan::{Phase, Plan, Wanted};
 use sliceflow::scene::Scene;
@@ -157,7 +158,7 @@ fn terms_of_the_contact_law_are_compiled_only_where_a_scene_has_them() {
 
 #[test]
 fn the_pool_view_works_with_every_storage_and_needs_no_scene_pictures() {
-    for storage in ["counting", "pool"] {
+    for storage in STORAGES.iter().map(|row| row.name) {
         let scene = common::scene(3, &[&format!("neighbors.storage={storage}"), "render.view=pool"]);
         let plan = plan(
             &scene,

@@ -7,6 +7,17 @@ use crate::error::{Error, Result};
 use crate::neighbors::{ADDRESSINGS, STORAGES};
 use crate::scene::Neighbors;
 
+/// What `--grid` is, with the words that it takes.
+pub fn help() -> String {
+    let addressings: Vec<&str> = ADDRESSINGS.iter().map(|row| row.name).collect();
+    let storages: Vec<&str> = STORAGES.iter().map(|row| row.name).collect();
+    format!(
+        "Neighbor search, ADDRESSING-STORAGE: {} with {}, such as sliced-counting",
+        addressings.join("|"),
+        storages.join("|")
+    )
+}
+
 fn split(name: &str) -> Result<(&str, &str)> {
     name.split_once('-').ok_or_else(|| {
         Error::usage(

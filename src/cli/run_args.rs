@@ -1,6 +1,7 @@
 //! Arguments that `run` and `plan` share: the scene and what to write.
 
 use super::checkpoint_args::CheckpointArgs;
+use super::grid;
 use super::rerun_args::RerunArgs;
 use super::scene_args::{Choices, SceneArgs};
 use crate::error::Result;
@@ -17,8 +18,7 @@ pub struct RunArgs {
     /// What pictures show: the scene, the index pool as a heatmap, or both
     #[arg(long, value_parser = ["scene", "pool", "both"])]
     view: Option<String>,
-    /// Neighbor search, ADDRESSING-STORAGE: uniform, sliced or rows, counting or pool: sliced-counting
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help = grid::help())]
     grid: Option<String>,
     /// Writes particle files in this format
     #[arg(long, value_name = "FORMAT")]

@@ -9,6 +9,7 @@ pub mod grid;
 pub mod layout;
 pub mod occupancy;
 pub mod room;
+mod sort;
 pub mod storage;
 
 pub use addressing::ADDRESSINGS;
@@ -32,8 +33,12 @@ pub struct Search {
     pub grid: Grid,
     pub buffers: Vec<BufferPlan>,
     pub passes: Vec<PassPlan>,
-    /// Flags of the variant that the addressing needs.
+    /// Flags of the variant that the addressing and the storage need.
     flags: Vec<&'static str>,
+    /// Constants of the variant that the storage needs.
+    constants: Vec<(&'static str, u32)>,
+    /// What a user should know about them.
+    pub notes: Vec<String>,
 }
 
 /// What a scene's first state needs, with the slicing axis that needs least where the scene leaves it open.
@@ -126,10 +131,14 @@ pub fn plan(scene: &Scene, grid: Grid, variant: &mut Variant) -> Search {
         .role("addressing", addressing::row(scene.neighbors.addressing).query)
         .role("storage", storage::row(scene.neighbors.storage).query)
         .constant("SLOTS", scene.neighbors.slots)
-        .constant("REACH", grid::voxel_reach(scene));
+        .constant("REACH", grid::voxel_reach(scene))
+        .flag("deterministic", scene.neighbors.deterministic);
     let search = Search::new(scene, grid, scene.capacity);
     for flag in &search.flags {
         variant.flag(flag, true);
+    }
+    for &(name, value) in &search.constants {
+        variant.constant(name, value);
     }
     search
 }
@@ -149,10 +158,12 @@ impl Search {
             ],
             passes: Vec::new(),
             flags: Vec::new(),
+            constants: Vec::new(),
+            notes: Vec::new(),
             grid,
         };
         (addressing::row(scene.neighbors.addressing).plan)(&mut search, scene);
-        (storage::row(scene.neighbors.storage).plan)(&mut search, particles, scene.neighbors.slots);
+        (storage::row(scene.neighbors.storage).plan)(&mut search, particles, &scene.neighbors);
         search
     }
 }

@@ -1,8 +1,9 @@
 //! How a voxel keeps its particles.
 
-use super::Search;
+use super::{Search, sort};
 use crate::gpu::compose::{SCAN_ITEMS, SCAN_THREADS};
 use crate::gpu::{BufferPlan, Items, PassPlan};
+use crate::scene::Neighbors;
 use crate::scene::model::Storage;
 
 /// One way to keep particles in voxels.
@@ -12,8 +13,8 @@ pub struct StorageRow {
     pub source: &'static str,
     /// Shader file that answers `candidate_range`, `candidate` and `occupancy`.
     pub query: &'static str,
-    /// Adds what it needs to a search, for so many particles and slots a voxel.
-    pub plan: fn(&mut Search, capacity: u32, slots: u32),
+    /// Adds what it needs to a search, for so many particles.
+    pub plan: fn(&mut Search, particles: u32, &Neighbors),
 }
 
 pub const STORAGES: &[StorageRow] = &[
@@ -21,7 +22,7 @@ pub const STORAGES: &[StorageRow] = &[
         kind: Storage::Counting,
         name: "counting",
         source: "Green 2012, two-pass atomics",
-        query: "storage/counting/query",
+        query: "storage/sorted/query",
         plan: counting,
     },
     StorageRow {
@@ -31,6 +32,20 @@ pub const STORAGES: &[StorageRow] = &[
         query: "storage/pool/query",
         plan: pool,
     },
+    StorageRow {
+        kind: Storage::Radix,
+        name: "radix",
+        source: "Green 2012, sorting",
+        query: "storage/sorted/query",
+        plan: sort::radix,
+    },
+    StorageRow {
+        kind: Storage::Bitonic,
+        name: "bitonic",
+        source: "Rojas 2013",
+        query: "storage/sorted/query",
+        plan: sort::bitonic,
+    },
 ];
 
 /// The row of a storage.
@@ -39,15 +54,45 @@ pub fn row(kind: Storage) -> &'static StorageRow {
     found.expect("every storage has a row")
 }
 
-fn counting(search: &mut Search, capacity: u32, _slots: u32) {
-    let particles = u64::from(capacity);
+/// Adds the prefix sum of a shader file over at most `items` items, by workgroups as `how` says: many, one.
+pub(super) fn scan(search: &mut Search, shader: &str, items: u64, how: [Items; 2], what: &str) {
+    let blocks = items.div_ceil(u64::from(SCAN_THREADS * SCAN_ITEMS));
+    let sums = BufferPlan::storage("block_sum", blocks, 4, "prefix sum, blocks");
+    match search.buffers.iter_mut().find(|buffer| buffer.name == sums.name) {
+        Some(known) => known.bytes = known.bytes.max(sums.bytes),
+        None => search.buffers.push(sums),
+    }
+    let [many, one] = how;
+    let pass = |entry, items, why: &str| PassPlan::new(shader, entry, items, format!("{what}: {why}"));
+    search.passes.extend([
+        pass("sum_blocks", many, "prefix sum, sums of blocks"),
+        pass("scan_blocks", one, "prefix sum over blocks"),
+        pass("finish_scan", many, "prefix sum, inside blocks"),
+    ]);
+}
+
+/// Adds the prefix sum that turns `voxel_count` into `voxel_start`, for storages in voxel order.
+pub(super) fn voxel_starts(search: &mut Search) {
     // The quarantine behind the voxels, and one entry more for the end.
     let items = u64::from(search.grid.capacity) + 2;
-    let blocks = items.div_ceil(u64::from(SCAN_THREADS * SCAN_ITEMS));
     search.buffers.extend([
         BufferPlan::storage("voxel_count", items, 4, "particles that fell into each voxel"),
         BufferPlan::storage("voxel_start", items, 4, "first particle of each voxel"),
-        BufferPlan::storage("block_sum", blocks, 4, "prefix sum, blocks"),
+    ]);
+    let how = [Items::VoxelBlocks, Items::Once];
+    scan(search, "storage/sorted/scan_voxels", items, how, "voxels");
+}
+
+fn counting(search: &mut Search, particles: u32, neighbors: &Neighbors) {
+    let particles = u64::from(particles);
+    let build = "storage/counting/build";
+    let pass = |entry, why| PassPlan::new(build, entry, Items::Particles, why);
+    search.passes.push(pass(
+        "count_voxels",
+        "voxel of each particle; particles of each voxel",
+    ));
+    voxel_starts(search);
+    search.buffers.extend([
         BufferPlan::storage("particle_voxel", particles, 4, "voxel of each particle"),
         BufferPlan::storage(
             "arrival",
@@ -55,52 +100,32 @@ fn counting(search: &mut Search, capacity: u32, _slots: u32) {
             4,
             "place of each particle among its voxel's, as counted",
         ),
-        BufferPlan::storage(
-            "arrived",
-            particles,
-            4,
-            "particles in voxel order, before their order is made canonical",
-        ),
     ]);
-    let build = "storage/counting/build";
-    let scan = "storage/counting/scan";
-    search.passes.extend([
-        PassPlan::new(
-            build,
-            "count_voxels",
-            Items::Particles,
-            "voxel of each particle; particles of each voxel",
-        ),
-        PassPlan::new(
-            scan,
-            "sum_blocks",
-            Items::VoxelBlocks,
-            "prefix sum over voxels, first part",
-        ),
-        PassPlan::new(scan, "scan_blocks", Items::Once, "prefix sum over blocks"),
-        PassPlan::new(
-            scan,
-            "start_voxels",
-            Items::VoxelBlocks,
-            "first particle of each voxel",
-        ),
-        PassPlan::new(
-            build,
-            "scatter_particles",
-            Items::Particles,
-            "indices into voxel order",
-        ),
-        PassPlan::new(
-            build,
+    if !neighbors.deterministic {
+        search.passes.push(pass(
             "reorder_particles",
-            Items::Particles,
+            "state into voxel order, as it was counted",
+        ));
+        return;
+    }
+    search.buffers.push(BufferPlan::storage(
+        "arrived",
+        particles,
+        4,
+        "particles in voxel order, before their order is made canonical",
+    ));
+    search.passes.extend([
+        pass("scatter_particles", "indices into voxel order"),
+        pass(
+            "reorder_particles",
             "state into voxel order, the same in every run",
         ),
     ]);
 }
 
-fn pool(search: &mut Search, _capacity: u32, slots: u32) {
+fn pool(search: &mut Search, _: u32, neighbors: &Neighbors) {
     let voxels = u64::from(search.grid.capacity);
+    let slots = neighbors.slots;
     search.buffers.extend([
         BufferPlan::storage("voxel_count", voxels, 4, "particles that fell into each voxel"),
         BufferPlan::storage(

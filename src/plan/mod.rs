@@ -210,7 +210,7 @@ impl Plan {
             textures,
             passes,
             draws,
-            notes: obstacles.notes.clone(),
+            notes: [obstacles.notes.clone(), search.notes].concat(),
             variant,
             grid: search.grid,
             obstacles,

@@ -222,6 +222,8 @@ pub struct Neighbors {
     /// How far beyond open sides the search follows particles, metres; eight times the domain's longest side when
     /// `None`.
     pub quarantine_distance: Option<f64>,
+    /// Whether the order of particles must be the same in every run.
+    pub deterministic: bool,
 }
 
 impl From<&model::Neighbors> for Neighbors {
@@ -235,6 +237,7 @@ impl From<&model::Neighbors> for Neighbors {
             slots: given.slots,
             margin: given.margin,
             quarantine_distance: given.quarantine_distance,
+            deterministic: given.deterministic,
         }
     }
 }

@@ -484,6 +484,9 @@ pub struct Neighbors {
     /// side when left out. Particles beyond find no neighbors; they are counted.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub quarantine_distance: Option<f64>,
+    /// Whether two runs on one device give the same bytes. Without it, `counting` and `pool` take particles in the
+    /// order in which the device's threads arrive, which saves work; the other storages give the same bytes anyway.
+    pub deterministic: bool,
 }
 
 impl Default for Neighbors {
@@ -497,6 +500,7 @@ impl Default for Neighbors {
             slots: 4,
             margin: 1.5,
             quarantine_distance: None,
+            deterministic: true,
         }
     }
 }
@@ -562,6 +566,10 @@ pub enum Storage {
     Counting,
     /// A fixed number of indices a voxel (Harada 2007's index pool).
     Pool,
+    /// A radix sort by voxel: particles stand in voxel order (Green 2012).
+    Radix,
+    /// A bitonic merge sort by voxel: particles stand in voxel order (Rojas 2013).
+    Bitonic,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

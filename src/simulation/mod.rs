@@ -4,7 +4,7 @@ pub mod frame;
 mod growth;
 mod neighbor_lists;
 mod particles;
-mod passes;
+pub mod passes;
 mod segments;
 pub mod state;
 
@@ -17,7 +17,6 @@ pub use neighbor_lists::{NeighborCounts, NeighborLists, PairQuery};
 pub use state::State;
 
 use crate::error::{Casualty, Error, Result};
-use crate::gpu::pass::INDEX_STRIDE;
 use crate::gpu::readback::Ring;
 use crate::gpu::timing::Timer;
 use crate::gpu::{Buffers, Gpu};
@@ -142,10 +141,6 @@ impl Simulation {
         };
         buffers.write(gpu, "guard", 0, &[guard])?;
         buffers.write(gpu, "grid", 0, &[self.plan.grid])?;
-        for (place, index) in self.plan.indices().into_iter().enumerate() {
-            let first = place * INDEX_STRIDE as usize / size_of::<u32>();
-            buffers.write(gpu, "pass_index", first, &[index])?;
-        }
         if buffers.contains("contact_walls") {
             buffers.write(gpu, "contact_walls", 0, &[dem::contact_walls(scene)])?;
         }

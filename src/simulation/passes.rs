@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::error::Result;
+use crate::gpu::pass::INDEX_STRIDE;
 use crate::gpu::{Buffers, Gpu, Groups, Items, Kernel, Pass, PassPlan, Shader};
 use crate::plan::{Phase, Plan};
 
@@ -35,6 +36,10 @@ pub struct Passes {
 impl Passes {
     pub fn new(gpu: &Gpu, plan: &Plan, buffers: &Buffers, kernels: &mut Kernels) -> Result<Self> {
         let indices = plan.indices();
+        for (place, index) in indices.iter().enumerate() {
+            let first = place * INDEX_STRIDE as usize / size_of::<u32>();
+            buffers.write(gpu, "pass_index", first, &[*index])?;
+        }
         let mut made = |phase| -> Result<Vec<Step>> {
             let step = |planned: &PassPlan| {
                 let key = (planned.shader.clone(), planned.entry.clone());

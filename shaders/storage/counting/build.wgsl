@@ -1,5 +1,6 @@
-// Builds storage `counting`: count, (prefix sum: scan.wgsl,) scatter, then a canonical order inside each voxel, so
-// that two runs sum in the same order whatever order the atomics had.
+// Builds storage `counting`: count, (prefix sum: sorted/scan_voxels.wgsl,) scatter. Where runs have to be repeatable,
+// particles then take a canonical order inside each voxel, so that two runs sum in the same order whatever order the
+// atomics had.
 #import common/thread
 #import common/parameters
 #import storage/place
@@ -11,8 +12,10 @@ var<storage, read> voxel_start: array<u32>;
 // Voxel of each particle, and how many of the voxel's particles came before it to the counter.
 var<storage, read_write> particle_voxel: array<u32>;
 var<storage, read_write> arrival: array<u32>;
+#if deterministic
 // Particles in voxel order, inside a voxel in order of arrival.
 var<storage, read_write> arrived: array<u32>;
+#end
 
 @compute @workgroup_size(GROUP_SIZE)
 fn count_voxels(thread: Thread) {
@@ -25,6 +28,7 @@ fn count_voxels(thread: Thread) {
     arrival[i] = atomicAdd(&voxel_count[voxel], 1u);
 }
 
+#if deterministic
 @compute @workgroup_size(GROUP_SIZE)
 fn scatter_particles(thread: Thread) {
     let i = item_index(thread);
@@ -49,3 +53,13 @@ fn reorder_particles(thread: Thread) {
     }
     place(i, slot);
 }
+#else
+@compute @workgroup_size(GROUP_SIZE)
+fn reorder_particles(thread: Thread) {
+    let i = item_index(thread);
+    if i >= parameters.particle_count {
+        return;
+    }
+    place(i, voxel_start[particle_voxel[i]] + arrival[i]);
+}
+#end

@@ -1,5 +1,6 @@
-// Builds storage `pool`. Particles keep their places; each voxel keeps the SLOTS lowest of its particles' indices in
-// ascending order, whatever order the atomics had: each slot keeps the lower of two indices and hands on the other.
+// Builds storage `pool`. Particles keep their places. Where runs have to be repeatable, each voxel keeps the SLOTS
+// lowest of its particles' indices in ascending order, whatever order the atomics had: each slot keeps the lower of
+// two indices and hands on the other. Otherwise slots go by order of arrival (Green 2012).
 #import common/thread
 #import common/parameters
 #import storage/place
@@ -13,7 +14,11 @@ struct Overflow {
 }
 
 var<storage, read_write> voxel_count: array<atomic<u32>>;
+#if deterministic
 var<storage, read_write> index_pool: array<atomic<u32>>;
+#else
+var<storage, read_write> index_pool: array<u32>;
+#end
 var<storage, read_write> overflow: Overflow;
 
 @compute @workgroup_size(GROUP_SIZE)
@@ -26,9 +31,11 @@ fn clear_voxels(thread: Thread) {
         return;
     }
     atomicStore(&voxel_count[voxel], 0u);
+#if deterministic
     for (var slot = voxel * SLOTS; slot < (voxel + 1u) * SLOTS; slot++) {
         atomicStore(&index_pool[slot], NOBODY);
     }
+#end
 }
 
 @compute @workgroup_size(GROUP_SIZE)
@@ -43,12 +50,19 @@ fn insert_particles(thread: Thread) {
         return;
     }
     let voxel = address(at);
-    atomicAdd(&voxel_count[voxel], 1u);
+    let before = atomicAdd(&voxel_count[voxel], 1u);
+#if deterministic
     var carried = i;
     for (var slot = voxel * SLOTS; slot < (voxel + 1u) * SLOTS && carried != NOBODY; slot++) {
         carried = max(carried, atomicMin(&index_pool[slot], carried));
     }
-    if carried != NOBODY {
+#else
+    if before < SLOTS {
+        index_pool[voxel * SLOTS + before] = i;
+    }
+#end
+    // As many are without a slot as came when all slots were taken, whoever they are.
+    if before >= SLOTS {
         atomicAdd(&overflow.now, 1u);
         atomicAdd(&overflow.since_last_frame, 1u);
     }

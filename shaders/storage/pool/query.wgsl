@@ -3,7 +3,7 @@
 
 // Particles that fell into each voxel; more than SLOTS is overflow.
 var<storage, read> voxel_count: array<u32>;
-// SLOTS particle indices a voxel, ascending.
+// SLOTS particle indices a voxel.
 var<storage, read> index_pool: array<u32>;
 
 const RANGES: u32 = SPANS * SPAN_VOXELS;

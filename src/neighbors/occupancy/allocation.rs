@@ -70,8 +70,10 @@ impl Allocation {
             buffers: Vec::new(),
             passes: Vec::new(),
             flags: Vec::new(),
+            constants: Vec::new(),
+            notes: Vec::new(),
         };
-        (storage::row(neighbors.storage).plan)(&mut search, particles, neighbors.slots);
+        (storage::row(neighbors.storage).plan)(&mut search, particles, neighbors);
         total(&search.buffers)
     }
 }

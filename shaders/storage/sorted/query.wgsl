@@ -1,4 +1,4 @@
-// Storage `counting`: particles stand in voxel order, so a span of voxels is one range of particles (Green 2012).
+// Storages that put particles in voxel order: a span of voxels is one range of particles (Green 2012).
 #import <addressing>
 
 // First particle of each voxel and of the quarantine behind them, and one more: the particle count.

@@ -1,19 +1,14 @@
-// Prefix sum of `voxel_count` into `voxel_start` in three passes: sums of blocks, prefix sum of those, blocks again.
-// No pass waits for another workgroup: WebGPU promises no forward progress between workgroups.
+// Prefix sum in three passes: sums of blocks, prefix sum of those, blocks again. No pass waits for another workgroup:
+// WebGPU promises no forward progress between workgroups.
+//
+// The file that imports this one says what is summed: `scan_items()`, `scan_value(item)`, and
+// `scan_result(item, before)`, which keeps the sum over all items before this one.
 #import common/thread
 #import common/workgroup_scan
-#import <addressing>
 
 const SCAN_BLOCK: u32 = SCAN_THREADS * SCAN_ITEMS;
 
-var<storage, read_write> voxel_count: array<u32>;
-var<storage, read_write> voxel_start: array<u32>;
 var<storage, read_write> block_sum: array<u32>;
-
-// Behind the voxels stands the quarantine, and one entry more: its count is zero, and its start is the particle count.
-fn scan_items() -> u32 {
-    return voxel_total() + 2u;
-}
 
 @compute @workgroup_size(SCAN_THREADS)
 fn sum_blocks(thread: Thread) {
@@ -25,7 +20,7 @@ fn sum_blocks(thread: Thread) {
     let begin = block * SCAN_BLOCK + thread.local_index * SCAN_ITEMS;
     var sum = 0u;
     for (var item = begin; item < min(begin + SCAN_ITEMS, items); item++) {
-        sum += voxel_count[item];
+        sum += scan_value(item);
     }
     let scanned = workgroup_scan(thread.local_index, sum);
     if thread.local_index == 0u {
@@ -52,9 +47,8 @@ fn scan_blocks(@builtin(local_invocation_index) thread: u32) {
     }
 }
 
-// Leaves the counts zero for the next search.
 @compute @workgroup_size(SCAN_THREADS)
-fn start_voxels(thread: Thread) {
+fn finish_scan(thread: Thread) {
     let block = group_index(thread);
     let items = scan_items();
     if block * SCAN_BLOCK >= items {
@@ -64,12 +58,12 @@ fn start_voxels(thread: Thread) {
     let end = min(begin + SCAN_ITEMS, items);
     var sum = 0u;
     for (var item = begin; item < end; item++) {
-        sum += voxel_count[item];
+        sum += scan_value(item);
     }
-    var start = block_sum[block] + workgroup_scan(thread.local_index, sum).before;
+    var before = block_sum[block] + workgroup_scan(thread.local_index, sum).before;
     for (var item = begin; item < end; item++) {
-        voxel_start[item] = start;
-        start += voxel_count[item];
-        voxel_count[item] = 0u;
+        let value = scan_value(item);
+        scan_result(item, before);
+        before += value;
     }
 }
