@@ -51,6 +51,8 @@
 //! - a way to address voxels or to keep particles: one shader file and one row of the table in
 //!   `src/neighbors/addressing.rs` or `src/neighbors/storage.rs`;
 //! - a column: one row in `src/scene/column.rs` and one file in `shaders/render/columns/`;
+//! - a format of particle files: one row in `src/output/particles/formats.rs`; a kind of video: one in
+//!   `src/output/video/mod.rs`;
 //! - a color map: one row in `src/scene/color_maps.rs`.
 
 pub mod cli;

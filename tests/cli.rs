@@ -63,6 +63,8 @@ fn help_has_examples() {
         "scenes",
         "schema",
         "devices",
+        "surface",
+        "import",
     ] {
         let help = output(&[command, "--help"]);
         assert!(
@@ -90,6 +92,9 @@ fn unknown_commands_and_arguments_exit_with_2() {
     failure(&["run", "column_2d", "--size", "big"], 2);
     failure(&["run", "column_2d", "--frames", "0"], 2);
     failure(&["run", "column_2d", "--columns", "id"], 2);
+    failure(&["run", "column_2d", "--particles-every", "2"], 2);
+    assert!(failure(&["run", "column_2d", "--particles", "ply,csv"], 2).contains("bgeo"));
+    assert!(failure(&["plan", "column_2d", "--video", "a.avi"], 2).contains(".webm"));
 }
 
 #[test]
@@ -216,6 +221,9 @@ fn fewer_outputs_need_less_disk() {
     assert!(disk(&["--checkpoint-every", "0"]) < disk(&[]));
     assert!(disk(&["--no-pictures"]) < disk(&[]));
     assert!(disk(&[]) < disk(&["--particles", "npy"]));
+    assert!(disk(&["--particles", "npy"]) < disk(&["--particles", "npy,vtk"]));
+    assert!(disk(&["--particles", "npy", "--particles-every", "2"]) < disk(&["--particles", "npy"]));
+    assert!(disk(&[]) < disk(&["--video", "a.gif"]));
 }
 
 #[test]

@@ -4,8 +4,10 @@ mod checkpoint_args;
 mod devices;
 mod diff;
 mod grid;
+mod import;
 mod inspect;
 mod neighbors;
+mod particle_args;
 mod plan;
 mod render;
 mod rerun_args;
@@ -17,6 +19,7 @@ mod scenes;
 mod schema;
 mod stdout;
 mod study;
+mod surface;
 mod table;
 
 use clap::{Parser, Subcommand};
@@ -48,6 +51,8 @@ enum Command {
     Plan(plan::Args),
     Inspect(inspect::Args),
     Neighbors(neighbors::Args),
+    Surface(surface::Args),
+    Import(import::Args),
     Scenes(scenes::Args),
     Schema(schema::Args),
     Devices(devices::Args),
@@ -64,6 +69,8 @@ pub fn main() -> Result<()> {
         Command::Plan(args) => plan::main(&args),
         Command::Inspect(args) => inspect::main(&args),
         Command::Neighbors(args) => neighbors::main(&args),
+        Command::Surface(args) => surface::main(&args),
+        Command::Import(args) => import::main(&args),
         Command::Scenes(args) => scenes::main(&args),
         Command::Schema(args) => schema::main(&args),
         Command::Devices(args) => devices::main(&args),

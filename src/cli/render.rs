@@ -69,7 +69,8 @@ pub fn main(args: &Args) -> Result<()> {
         outputs: Outputs {
             pictures: true,
             statistics: false,
-            particles: Vec::new(),
+            particles: None,
+            video: None,
             rerun: None,
             checkpoints: Checkpoints {
                 every: Every::Never,

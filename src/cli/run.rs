@@ -10,8 +10,9 @@ use crate::output::{self, Outputs, Settings, progress};
 
 /// Simulates a scene and writes its frames
 ///
-/// Writes pictures (frame_000000.png …), statistics (stats.jsonl), particle files on request, and a manifest that says
-/// what everything is (run.json). Ctrl-C ends the run after the frames under way; `sliceflow resume` goes on with it.
+/// Writes pictures (frame_000000.png …), statistics (stats.jsonl), particle files and a video on request, and a manifest
+/// that says what everything is (run.json). Ctrl-C ends the run after the frames under way; `sliceflow resume` goes on
+/// with it.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -43,6 +44,8 @@ Examples:
   sliceflow run my_scene.json --out out/trial --frames 60 --size 1920x1080
   sliceflow run harada_figure_2 --view both --grid sliced-pool
   sliceflow run harada_figure_2_small --rerun out/session.rrd
+  sliceflow run bunny_pour --video out/bunny_pour.mp4
+  sliceflow run green_cube --particles vtk,ply --particles-every 5
   sliceflow run column_2d --particles npy --columns position,velocity,id --no-pictures
   sliceflow run green_cube --set grains.restitution=0.9 --set 'gravity=[0,-1.62,0]' --force";
 

@@ -1,11 +1,14 @@
 //! Arguments that `run` and `plan` share: the scene and what to write.
 
+use std::path::PathBuf;
+
 use super::checkpoint_args::CheckpointArgs;
 use super::grid;
+use super::particle_args::ParticleArgs;
 use super::rerun_args::RerunArgs;
 use super::scene_args::{Choices, SceneArgs};
 use crate::error::Result;
-use crate::output::{Checkpoints, DEFAULT_COLUMNS, Outputs, columns_named};
+use crate::output::{Checkpoints, Outputs, VideoOutput};
 use crate::scene::Scene;
 
 #[derive(clap::Args)]
@@ -20,12 +23,11 @@ pub struct RunArgs {
     view: Option<String>,
     #[arg(long, value_name = "NAME", help = grid::help())]
     grid: Option<String>,
-    /// Writes particle files in this format
-    #[arg(long, value_name = "FORMAT")]
-    particles: Option<Format>,
-    /// Columns of particle files (see `sliceflow scenes --columns`)
-    #[arg(long, value_name = "A,B,C", value_delimiter = ',', requires = "particles")]
-    columns: Vec<String>,
+    #[command(flatten)]
+    particles: ParticleArgs,
+    /// Makes a video: .mp4 and .webm by the program ffmpeg; .gif and .png (animated), small, by Sliceflow itself
+    #[arg(long, value_name = "FILE")]
+    video: Option<PathBuf>,
     /// Draws nothing
     #[arg(long)]
     no_pictures: bool,
@@ -38,12 +40,6 @@ pub struct RunArgs {
     checkpoints: CheckpointArgs,
 }
 
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum Format {
-    /// NumPy, one file a column
-    Npy,
-}
-
 impl RunArgs {
     pub fn load(&self) -> Result<Scene> {
         self.scene.load(&Choices {
@@ -54,15 +50,11 @@ impl RunArgs {
     }
 
     pub fn outputs(&self) -> Result<Outputs> {
-        let particles = match self.particles {
-            None => Vec::new(),
-            Some(Format::Npy) if self.columns.is_empty() => columns_named(DEFAULT_COLUMNS.iter().copied())?,
-            Some(Format::Npy) => columns_named(self.columns.iter().map(|name| name.trim()))?,
-        };
         Ok(Outputs {
             pictures: !self.no_pictures,
             statistics: !self.no_statistics,
-            particles,
+            particles: self.particles.output()?,
+            video: self.video.as_deref().map(VideoOutput::new).transpose()?,
             rerun: self.rerun.settings(),
             checkpoints: self.checkpoints.or(Checkpoints::default()),
         })

@@ -80,6 +80,12 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
     for note in scene.notes.iter().chain(&plan.notes) {
         progress.note(note);
     }
+    if let Some(warning) = settings.outputs.particles.as_ref().and_then(|p| p.warning(scene)) {
+        progress.warn(&warning);
+    }
+    if let Some(note) = settings.outputs.video.as_ref().and_then(|v| v.note(scene)) {
+        progress.note(&note);
+    }
     let first = recipe.first_frame;
     progress.note(&format!(
         "{} frames, about {} in {}",

@@ -3,7 +3,6 @@
 use super::Outputs;
 use super::keeper::{Checkpoints, Every};
 use crate::scene::Scene;
-use crate::scene::column::VECTORS;
 use crate::simulation::state::state_bytes;
 
 /// Bytes that a pixel of a compressed picture takes, at most, in the scenes that ship.
@@ -37,18 +36,10 @@ pub fn disk_bytes(scene: &Scene, outputs: &Outputs) -> u64 {
         0.0
     };
     let statistics = if outputs.statistics { STATISTICS_BYTES } else { 0.0 };
-    let row: usize = outputs
-        .particles
-        .iter()
-        .map(|column| {
-            if VECTORS.contains(column) {
-                8 * scene.dimensions.count()
-            } else {
-                4
-            }
-        })
-        .sum();
-    let particles = f64::from(scene.capacity) * row as f64;
+    let particles = outputs.particles.as_ref().map_or(0.0, |particles| {
+        f64::from(particles.frames(scene.time.frames)) * particles.frame_bytes(scene.capacity)
+    });
+    let video = outputs.video.as_ref().map_or(0.0, |video| video.bytes(scene));
     let recordings = outputs
         .rerun
         .as_ref()
@@ -56,5 +47,7 @@ pub fn disk_bytes(scene: &Scene, outputs: &Outputs) -> u64 {
     let (count, checkpoint) = checkpoints(scene, outputs);
     // While the newest is written, the oldest is still there.
     let checkpoints = u64::from(count) * checkpoint + if count > 0 { checkpoint } else { 0 };
-    (f64::from(scene.time.frames) * (picture + statistics + particles)) as u64 + recordings + checkpoints
+    (f64::from(scene.time.frames) * (picture + statistics) + particles + video) as u64
+        + recordings
+        + checkpoints
 }

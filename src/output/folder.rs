@@ -15,13 +15,18 @@ pub struct Folder {
     _lock: Option<fs::File>,
 }
 
+const PARTICLE_EXTENSIONS: [&str; 3] = [".ply", ".vtp", ".bgeo"];
+
 /// Files that a run writes, found before this one.
 #[derive(Debug, Default)]
 struct Earlier {
     pictures: Vec<PathBuf>,
     particles: Vec<PathBuf>,
+    /// Folders of NumPy arrays.
+    arrays: Vec<PathBuf>,
+    surfaces: Vec<PathBuf>,
     checkpoints: Vec<PathBuf>,
-    /// Manifest and statistics.
+    /// Manifest, statistics, index.
     records: Vec<PathBuf>,
 }
 
@@ -58,9 +63,14 @@ impl Folder {
         self.path.join(format!("frame_{frame:06}.png"))
     }
 
-    /// Folder of one frame's particle files.
+    /// One frame's particle files, without an extension.
     pub fn particles(&self, frame: u32) -> PathBuf {
         self.path.join(format!("particles_{frame:06}"))
+    }
+
+    /// The list of a folder's VTK files.
+    pub fn index_of_particles(folder: &Path) -> PathBuf {
+        folder.join("particles.pvd")
     }
 
     pub fn statistics(&self) -> PathBuf {
@@ -77,11 +87,17 @@ impl Folder {
         if earlier.is_empty() {
             return Ok(None);
         }
-        let files = earlier.pictures.iter().chain(&earlier.checkpoints);
-        for file in files.chain(&earlier.records) {
+        let files = [
+            &earlier.pictures,
+            &earlier.particles,
+            &earlier.surfaces,
+            &earlier.checkpoints,
+            &earlier.records,
+        ];
+        for file in files.into_iter().flatten() {
             fs::remove_file(file).map_err(|reason| disk::failed(file, "remove", reason))?;
         }
-        for folder in &earlier.particles {
+        for folder in &earlier.arrays {
             remove_arrays(folder).map_err(|reason| disk::failed(folder, "remove", reason))?;
         }
         Ok(Some(format!(
@@ -96,14 +112,27 @@ impl Folder {
         for entry in fs::read_dir(&self.path).map_err(failed)? {
             let path = entry.map_err(failed)?.path();
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            if path == self.manifest() || path == self.statistics() {
+            let records = [
+                self.manifest(),
+                self.statistics(),
+                Self::index_of_particles(&self.path),
+            ];
+            let is_particles = |extension| numbered(&name, "particles_", extension).is_some();
+            if records.contains(&path) {
                 earlier.records.push(path);
-            } else if is_numbered(&name, "frame_", ".png") {
+            } else if numbered(&name, "frame_", ".png").is_some() {
                 earlier.pictures.push(path);
-            } else if is_numbered(&name, "checkpoint_", ".bin") {
+            } else if numbered(&name, "checkpoint_", ".bin").is_some() {
                 earlier.checkpoints.push(path);
-            } else if is_numbered(&name, "particles_", "") && path.is_dir() {
+            } else if PARTICLE_EXTENSIONS.into_iter().any(is_particles) {
                 earlier.particles.push(path);
+            } else if [".ply", ".obj"]
+                .iter()
+                .any(|e| numbered(&name, "surface_", e).is_some())
+            {
+                earlier.surfaces.push(path);
+            } else if is_particles("") && path.is_dir() {
+                earlier.arrays.push(path);
             }
         }
         Ok(earlier)
@@ -119,9 +148,16 @@ impl Folder {
 
 impl Earlier {
     fn is_empty(&self) -> bool {
-        [&self.pictures, &self.particles, &self.checkpoints, &self.records]
-            .iter()
-            .all(|files| files.is_empty())
+        [
+            &self.pictures,
+            &self.particles,
+            &self.arrays,
+            &self.surfaces,
+            &self.checkpoints,
+            &self.records,
+        ]
+        .iter()
+        .all(|files| files.is_empty())
     }
 }
 
@@ -133,7 +169,9 @@ impl std::fmt::Display for Earlier {
         let names = self.records.iter().filter_map(|path| path.file_name()?.to_str());
         let parts = counted(&self.pictures, "frames")
             .into_iter()
-            .chain(counted(&self.particles, "folders of particle files"))
+            .chain(counted(&self.particles, "particle files"))
+            .chain(counted(&self.arrays, "folders of arrays"))
+            .chain(counted(&self.surfaces, "surfaces"))
             .chain(counted(&self.checkpoints, "checkpoints"))
             .chain(names.map(str::to_owned));
         f.write_str(&parts.collect::<Vec<_>>().join(", "))
@@ -155,12 +193,11 @@ fn lock(path: &Path) -> Result<Option<fs::File>> {
     }
 }
 
-/// Whether `name` is `prefix`, at least six digits, `suffix`.
-fn is_numbered(name: &str, prefix: &str, suffix: &str) -> bool {
-    let digits = name
-        .strip_prefix(prefix)
-        .and_then(|rest| rest.strip_suffix(suffix));
-    digits.is_some_and(|digits| digits.len() >= 6 && digits.bytes().all(|b| b.is_ascii_digit()))
+/// The number in a name that is `prefix`, at least six digits, `suffix`.
+pub fn numbered(name: &str, prefix: &str, suffix: &str) -> Option<u32> {
+    let digits = name.strip_prefix(prefix)?.strip_suffix(suffix)?;
+    let all = digits.len() >= 6 && digits.bytes().all(|b| b.is_ascii_digit());
+    all.then(|| digits.parse().ok()).flatten()
 }
 
 /// Removes a frame's arrays, and its folder unless something else is in it.
@@ -206,6 +243,14 @@ mod tests {
         }
         fs::create_dir(folder.particles(0)).unwrap();
         fs::write(folder.particles(0).join("id.npy"), b"").unwrap();
+        for name in [
+            "particles_000000.ply",
+            "particles_000000.vtp",
+            "particles_000000.bgeo",
+            "particles.pvd",
+        ] {
+            fs::write(path.join(name), b"").unwrap();
+        }
 
         let busy = Folder::open(&path, true).unwrap_err().to_string();
         assert!(busy.contains("another run is writing"), "{busy}");
@@ -218,7 +263,7 @@ mod tests {
             message.contains("2 frames") && message.contains("--force"),
             "{message}"
         );
-        assert_eq!(names(&path).len(), 5);
+        assert_eq!(names(&path).len(), 9);
 
         let told = Folder::open(&path, true).unwrap().clear().unwrap().unwrap();
         assert!(told.contains("2 frames") && told.contains("run.json"), "{told}");
@@ -227,15 +272,15 @@ mod tests {
 
     #[test]
     fn only_numbered_names_count() {
-        assert!(is_numbered("frame_000000.png", "frame_", ".png"));
-        assert!(is_numbered("particles_1000000", "particles_", ""));
+        assert_eq!(numbered("frame_000012.png", "frame_", ".png"), Some(12));
+        assert_eq!(numbered("particles_1000000", "particles_", ""), Some(1_000_000));
         for other in [
             "frame_0.png",
             "frame_00000x.png",
             "frame_000000.jpg",
             "my_frame_000000.png",
         ] {
-            assert!(!is_numbered(other, "frame_", ".png"), "{other}");
+            assert_eq!(numbered(other, "frame_", ".png"), None, "{other}");
         }
     }
 }

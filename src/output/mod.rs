@@ -24,8 +24,10 @@ mod resume;
 mod rewind;
 mod run;
 mod statistics;
+pub mod surface;
 mod tally;
 pub mod text;
+mod video;
 mod workers;
 
 use std::sync::Arc;
@@ -33,7 +35,9 @@ use std::sync::Arc;
 pub use disk::write as write_file;
 pub use estimate::{checkpoints as checkpoint_estimate, disk_bytes};
 pub use keeper::{Checkpoints, Every};
-pub use particles::{DEFAULT_COLUMNS, columns_named};
+pub use particles::{
+    DEFAULT_COLUMNS, FORMATS as PARTICLE_FORMATS, Format as ParticleFormat, ParticleOutput, columns_named,
+};
 pub use png::{compose as compose_picture, encode as encode_png};
 pub use progress::Progress;
 pub use recipe::Recorded;
@@ -41,6 +45,7 @@ pub use redraw::redraw;
 pub use resume::{branch, resume};
 pub use run::{Outputs, Settings, run};
 pub use tally::Tally;
+pub use video::VideoOutput;
 
 use crate::error::Result;
 use crate::simulation::frame::Frame;

@@ -68,6 +68,10 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
     };
     let next = start.state().map_or(0, |state| state.frame + 1);
     let settings = part_from(settings, next, recipe.variant_of.is_some(), &recipe, &progress);
+    if let Some(video) = &settings.outputs.video {
+        // What an earlier attempt left of this part is made again.
+        video.check(true)?;
+    }
     drive(Launch {
         scene: &scene,
         settings: &settings,
@@ -87,6 +91,9 @@ pub fn branch(recorded: &Recorded, frame: u32, overrides: &[String], settings: &
     check_variant(recipe, &old, &scene, frame)?;
     let progress = Progress::new(settings.progress, scene.time.frames);
     let settings = &part_from(settings, frame, true, recipe, &progress);
+    if let Some(video) = &settings.outputs.video {
+        video.check(settings.force)?;
+    }
     if let Some(rerun) = &settings.outputs.rerun {
         rerun.check(&scene, settings.outputs.pictures, settings.force)?;
     }
@@ -145,6 +152,13 @@ fn part_from(
         progress.note(&format!(
             "recording frames from {first} on into {}",
             targets.join(", ")
+        ));
+    }
+    if let Some(video) = &mut part.outputs.video {
+        *video = video.part_from(first, folder_of);
+        progress.note(&format!(
+            "the video of frames from {first} on is {}",
+            video.path().display()
         ));
     }
     part

@@ -7,26 +7,26 @@ use super::drive::{Launch, Start, drive};
 use super::folder::Folder;
 use super::keeper::{Checkpoints, Every};
 use super::manifest::Files;
-use super::particles::ParticleFiles;
+use super::particles::{ParticleFiles, ParticleOutput};
 use super::png::Pictures;
 use super::progress::{self, Progress};
 use super::recipe::Recipe;
 use super::statistics::StatisticsFile;
+use super::video::{Video, VideoOutput};
 use super::{Sink, rerun};
 use crate::error::Result;
 use crate::gpu::AdapterChoice;
 use crate::plan::{Plan, Wanted};
 use crate::render::Overlay;
 use crate::scene::Scene;
-use crate::scene::column::Column;
 
 /// Which sinks a run has.
 #[derive(Debug, Clone)]
 pub struct Outputs {
     pub pictures: bool,
     pub statistics: bool,
-    /// Columns of particle files; empty for no files.
-    pub particles: Vec<Column>,
+    pub particles: Option<ParticleOutput>,
+    pub video: Option<VideoOutput>,
     /// Recordings for the Rerun viewer.
     pub rerun: Option<rerun::Settings>,
     pub checkpoints: Checkpoints,
@@ -37,8 +37,11 @@ impl Outputs {
     pub fn wanted(&self, scene: &Scene) -> Wanted {
         let mut wanted = Wanted {
             statistics: self.statistics,
-            columns: self.particles.clone(),
-            view: self.pictures.then_some(scene.render.view),
+            columns: self
+                .particles
+                .as_ref()
+                .map_or_else(Vec::new, |p| p.columns.clone()),
+            view: (self.pictures || self.video.is_some()).then_some(scene.render.view),
             ..Wanted::default()
         };
         if let Some(rerun) = &self.rerun {
@@ -49,7 +52,6 @@ impl Outputs {
 
     pub(super) fn files(&self, scene: &Scene) -> Vec<Files> {
         let [width, height] = scene.render.size;
-        let names: Vec<_> = self.particles.iter().map(|column| column.name).collect();
         let mut files = vec![Files {
             name: "run.json",
             about: "this file".into(),
@@ -71,15 +73,8 @@ impl Outputs {
                 about,
             });
         }
-        if !self.particles.is_empty() {
-            let about = format!(
-                "NumPy arrays of a frame, rows in order of id: {}",
-                names.join(", ")
-            );
-            files.push(Files {
-                name: "particles_NNNNNN/COLUMN.npy",
-                about,
-            });
+        if let Some(particles) = &self.particles {
+            files.extend(particles.files());
         }
         if self.checkpoints.every != Every::Never {
             files.push(Files {
@@ -87,6 +82,7 @@ impl Outputs {
                 about: "state behind a frame, for `sliceflow resume`".into(),
             });
         }
+        files.extend(self.video.as_ref().map(VideoOutput::files));
         files
     }
 
@@ -105,8 +101,13 @@ impl Outputs {
         if self.statistics {
             sinks.push(Box::new(StatisticsFile::open(folder.statistics())?));
         }
-        if !self.particles.is_empty() {
-            sinks.push(Box::new(ParticleFiles::new(folder.clone(), &self.particles)));
+        if let Some(particles) = &self.particles {
+            let files = ParticleFiles::new(folder.clone(), particles.clone(), scene);
+            sinks.push(Box::new(files));
+        }
+        if let Some(video) = &self.video {
+            let pictures = self.pictures.then(|| folder.path());
+            sinks.push(Box::new(Video::new(video.clone(), scene, pictures)?));
         }
         if let Some(rerun) = &self.rerun {
             sinks.extend(rerun.sinks(scene, plan, self.pictures, progress)?);
@@ -134,6 +135,9 @@ pub struct Settings {
 pub fn run(scene: &Scene, settings: &Settings) -> Result<()> {
     if let Some(rerun) = &settings.outputs.rerun {
         rerun.check(scene, settings.outputs.pictures, settings.force)?;
+    }
+    if let Some(video) = &settings.outputs.video {
+        video.check(settings.force)?;
     }
     let folder = Arc::new(Folder::open(&settings.folder, settings.force)?);
     let progress = Progress::new(settings.progress, scene.time.frames);

@@ -41,6 +41,17 @@ pub fn seconds(value: f64) -> String {
     }
 }
 
+/// A length with two digits: `0.25 m`, `15 mm`, `3.2 µm`
+pub fn metres(value: f64) -> String {
+    let (scaled, unit) = match value {
+        v if v >= 0.1 => (v, "m"),
+        v if v >= 1e-3 => (v * 1e3, "mm"),
+        v => (v * 1e6, "µm"),
+    };
+    let decimals = (1 - scaled.abs().max(0.1).log10().floor() as i32).max(0) as usize;
+    format!("{scaled:.decimals$} {unit}")
+}
+
 /// A large number with three digits: `842`, `12.3 k`, `4.56 M`, `1.20 G`
 pub fn short(value: f64) -> String {
     let (scaled, unit) = match value {
@@ -85,6 +96,12 @@ mod tests {
             texts,
             ["0.2 s", "59.9 s", "1 min 00 s", "2 min 05 s", "1 h 02 min"]
         );
+    }
+
+    #[test]
+    fn metres_keep_two_digits() {
+        let texts = [0.25, 0.1192, 0.0153, 3.2e-6, 12.0].map(metres);
+        assert_eq!(texts, ["0.25 m", "0.12 m", "15 mm", "3.2 µm", "12 m"]);
     }
 
     #[test]

@@ -10,7 +10,7 @@ use super::fit::{self, Grains, Placed};
 use super::frame::{Frame, Report};
 use super::mesh::Mesh;
 use super::model::{self, Arrangement, Body, SceneFile, Shape};
-use super::obstacles::{self, FILE_MEND, check_corners, turn_and_place};
+use super::obstacles::{self, FILE_MEND, check_corners, transform};
 use super::shapes::{self, Region};
 use super::text::number;
 use super::{Collider, Dimensions, Particles, particle_file};
@@ -202,19 +202,19 @@ fn from_file(
             return None;
         }
     };
-    let (rotate, translate) = turn_and_place(path, placement, frame, report);
-    let turned = |points: Vec<DVec3>, scale: f64, translate: DVec3| {
+    let (scale, rotate, translate) = transform(path, placement, frame, report);
+    let turned = |points: Vec<DVec3>, scale: DVec3, translate: DVec3| {
         let cloud = Mesh {
             vertices: points,
             triangles: Vec::new(),
         };
         cloud.placed(scale, rotate, translate).vertices
     };
-    let position = turned(loaded.position, placement.scale, translate);
+    let position = turned(loaded.position, scale, translate);
     let own = loaded
         .velocity
         .unwrap_or_else(|| vec![DVec3::ZERO; position.len()]);
-    let own = turned(own, 1.0, DVec3::ZERO);
+    let own = turned(own, DVec3::ONE, DVec3::ZERO);
     let mut order: Vec<usize> = (0..position.len()).collect();
     if let Some(ids) = &loaded.id {
         order.sort_by_key(|&i| ids[i]);

@@ -28,8 +28,8 @@ impl Mesh {
         load::load(path)
     }
 
-    /// Scaled, then turned about x, then y, then z, then moved by `translate` metres.
-    pub fn placed(mut self, scale: f64, rotate_degrees: DVec3, translate: DVec3) -> Mesh {
+    /// Scaled along each axis, by factors above zero, then turned about x, then y, then z, then moved by `translate` metres.
+    pub fn placed(mut self, scale: DVec3, rotate_degrees: DVec3, translate: DVec3) -> Mesh {
         let angle = rotate_degrees.map(f64::to_radians);
         let turn = DMat3::from_rotation_z(angle.z)
             * DMat3::from_rotation_y(angle.y)

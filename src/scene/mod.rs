@@ -2,6 +2,7 @@
 //!
 //! Everything in a [`Scene`] is finite, in SI units, and relative to [`Scene::origin`], which was subtracted in f64.
 
+mod bgeo;
 mod bodies;
 pub mod check;
 pub mod color_maps;
@@ -11,6 +12,7 @@ mod contact;
 mod emission;
 mod fit;
 mod frame;
+pub mod import;
 mod json;
 pub mod library;
 pub mod load;
@@ -28,6 +30,7 @@ pub mod signed_distance;
 mod text;
 mod time;
 mod validate;
+mod vtp;
 
 use std::path::PathBuf;
 

@@ -263,7 +263,7 @@ pub enum Shape {
         #[serde(default)]
         placement: Placement,
     },
-    /// Particles from a file: PLY, CSV (x, y, z, optional vx, vy, vz, id) or NPY (N×2 or N×3).
+    /// Particles from a file: PLY, VTP, BGEO, CSV (x, y, z, optional vx, vy, vz, id) or NPY (N×2 or N×3).
     Particles {
         /// Path, relative to the scene file.
         file: String,
@@ -272,12 +272,15 @@ pub enum Shape {
     },
 }
 
-/// Size, turn and place of something read from a file: scaled, then turned, then moved.
+/// Size, turn and place of something read from a file: scaled and stretched, then turned, then moved.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Placement {
     #[schemars(range(min = 1e-9, max = 1e9))]
     pub scale: f64,
+    /// Three factors along the file's own x, y and z, above zero, besides `scale`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stretch: Option<Coordinates>,
     /// Degrees about x, then y, then z.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotate: Option<Coordinates>,
@@ -290,6 +293,7 @@ impl Default for Placement {
     fn default() -> Self {
         Self {
             scale: 1.0,
+            stretch: None,
             rotate: None,
             translate: None,
         }

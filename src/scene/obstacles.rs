@@ -172,19 +172,31 @@ pub fn mesh(
         );
         return None;
     }
-    let (rotate, translate) = turn_and_place(path, placement, frame, report);
-    Some(mesh.placed(placement.scale, rotate, translate))
+    let (scale, rotate, translate) = transform(path, placement, frame, report);
+    Some(mesh.placed(scale, rotate, translate))
 }
 
 pub const FILE_MEND: &str = "check the path, which is relative to the scene file, and the file itself";
 
-/// Degrees about the axes, and the move in local coordinates, metres.
-pub fn turn_and_place(
+/// Factors along the axes, degrees about them, and the move in local coordinates, metres.
+pub fn transform(
     path: &str,
     placement: &model::Placement,
     frame: &Frame,
     report: &mut Report,
-) -> (DVec3, DVec3) {
+) -> (DVec3, DVec3, DVec3) {
+    let place = format!("{path}.placement.stretch");
+    let stretch = match &placement.stretch {
+        None => DVec3::ONE,
+        Some(factors) => report.vector(&place, factors, Dimensions::Three),
+    };
+    if stretch.cmple(DVec3::ZERO).any() {
+        report.problem(
+            place,
+            "has a factor that is not above zero",
+            "give three numbers above zero",
+        );
+    }
     let place = format!("{path}.placement.rotate");
     let rotate = match &placement.rotate {
         None => DVec3::ZERO,
@@ -203,7 +215,7 @@ pub fn turn_and_place(
         placement.translate.as_ref(),
         frame.dimensions,
     );
-    (rotate, frame.local(translate))
+    (placement.scale * stretch, rotate, frame.local(translate))
 }
 
 /// A collider's shape, ready to be asked which grains touch it.

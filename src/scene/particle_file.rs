@@ -1,4 +1,4 @@
-//! Particles that a user brings: PLY (ASCII or binary), CSV, or a NumPy array.
+//! Particles that a user brings or a run has written: PLY (ASCII or binary), VTK, BGEO, CSV, or a NumPy array.
 
 use std::collections::HashMap;
 use std::fs::{self, File};
@@ -7,7 +7,7 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use super::{Dimensions, ply};
+use super::{Dimensions, bgeo, ply, vtp};
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Loaded {
@@ -52,10 +52,12 @@ fn read(path: &Path) -> Result<Table, String> {
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     match extension.to_ascii_lowercase().as_str() {
         "ply" => from_ply(path),
+        "vtp" => vtp::read(path),
+        "bgeo" => bgeo::read(path),
         "csv" => from_csv(path),
         "npy" => from_npy(path),
         _ => Err(format!(
-            "{}: particles are read from .ply, .csv and .npy files; convert it to one of them",
+            "{}: particles are read from .ply, .vtp, .bgeo, .csv and .npy files; convert it to one of them",
             path.display()
         )),
     }
@@ -80,6 +82,20 @@ const ID: usize = 6;
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Row(pub [f64; 7]);
 
+/// The place of an attribute of so many components in a [`Row`]: of its first number.
+pub(super) fn attribute(name: &str, components: usize) -> Option<usize> {
+    match components {
+        1 => column(name),
+        3 if ["v", "velocity"]
+            .iter()
+            .any(|known| known.eq_ignore_ascii_case(name)) =>
+        {
+            Some(VELOCITY)
+        }
+        _ => None,
+    }
+}
+
 /// The place of a property in a [`Row`], whatever the case of its name.
 pub(super) fn column(name: &str) -> Option<usize> {
     COLUMNS
@@ -88,12 +104,12 @@ pub(super) fn column(name: &str) -> Option<usize> {
 }
 
 /// A particle file of any format, read but not yet checked.
-struct Table {
-    present: [bool; 7],
+pub(super) struct Table {
+    pub present: [bool; 7],
     /// What the file calls a row: "line 3", "vertex 3", "row 3".
-    noun: &'static str,
+    pub noun: &'static str,
     /// Number of the row in the file.
-    rows: Vec<(usize, Row)>,
+    pub rows: Vec<(usize, Row)>,
 }
 
 impl Table {
@@ -505,7 +521,7 @@ mod tests {
             ("r.ply", ply(xyz, ""), Three, "no particles"),
             ("s.ply", "ply\nformat".into(), Three, "not a readable PLY"),
             ("t.npy", "not numpy".into(), Three, "numpy.save"),
-            ("u.txt", "0 0 0".into(), Three, ".ply, .csv and .npy"),
+            ("u.txt", "0 0 0".into(), Three, ".ply, .vtp, .bgeo, .csv and .npy"),
         ] {
             let message = load(&file(&folder, name, text), dimensions).unwrap_err();
             assert!(

@@ -257,7 +257,11 @@ fn placed_scales_then_turns_about_x_y_z_then_moves() {
         vertices: vec![DVec3::X, DVec3::Y],
         triangles: Vec::new(),
     };
-    let placed = mesh.placed(2.0, DVec3::new(90.0, 90.0, 0.0), DVec3::new(10.0, 0.0, 0.0));
+    let placed = mesh.placed(
+        DVec3::splat(2.0),
+        DVec3::new(90.0, 90.0, 0.0),
+        DVec3::new(10.0, 0.0, 0.0),
+    );
     // x stays under the turn about x and goes to -z about y; y goes to z, then to x.
     assert!(placed.vertices[0].abs_diff_eq(DVec3::new(10.0, 0.0, -2.0), 1e-12));
     assert!(placed.vertices[1].abs_diff_eq(DVec3::new(12.0, 0.0, 0.0), 1e-12));

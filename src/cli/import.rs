@@ -1,0 +1,65 @@
+//! `sliceflow import`
+
+use std::path::{Path, PathBuf};
+
+use super::stdout;
+use crate::error::{Error, Result};
+use crate::output::text::count;
+use crate::output::write_file;
+use crate::scene::import::import;
+
+/// Makes a scene of a SPlisHSPlasH scene file
+///
+/// Reads FluidBlocks, FluidModels, RigidBodies (as obstacles that rest, or as the domain's box), Materials,
+/// gravity, times and camera, and lists every key that has no effect. Fluid becomes grains: there are no fluids yet.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    /// SPlisHSPlasH scene file (JSON)
+    scene: PathBuf,
+    /// Scene file to write; standard output when left out
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Replaces that file where it is there
+    #[arg(long, requires = "out")]
+    force: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sliceflow import DamBreakModel.json --out dam.json
+  sliceflow run dam.json
+  sliceflow import data/Scenes/DamBreakModel.json > dam.json";
+
+pub fn main(args: &Args) -> Result<()> {
+    let folder = args.out.as_deref().map(|out| match out.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    });
+    if let Some(out) = args.out.as_ref().filter(|out| out.exists() && !args.force) {
+        return Err(Error::usage(
+            format!("{} is there already", out.display()),
+            "replace it with --force, or give --out another name",
+        ));
+    }
+    let imported = import(&args.scene, folder)?;
+    for note in &imported.notes {
+        eprintln!("note: {note}");
+    }
+    for ignored in &imported.ignored {
+        eprintln!("ignored: {ignored}");
+    }
+    let text = format!("{:#}\n", imported.json);
+    eprintln!(
+        "imported {} grains and {} obstacles{}",
+        count(imported.scene.particles.len() as u64),
+        imported.scene.colliders.len(),
+        args.out
+            .as_ref()
+            .map_or_else(String::new, |out| format!(" into {}", out.display()))
+    );
+    match &args.out {
+        Some(out) => write_file(out, text.as_bytes()),
+        None => stdout::print(&text),
+    }
+}

@@ -1,0 +1,118 @@
+//! `sliceflow surface`
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser as _};
+
+use crate::error::{Error, Result};
+use crate::output::surface::{MESH_FORMATS, MeshFormat, Sequence, SurfaceSettings, make_surfaces};
+use crate::output::text::{count, seconds};
+
+/// Turns a run's particles into surfaces, a mesh a frame
+///
+/// Reads the particle files that `sliceflow run --particles` has written, and writes surface_000000.ply … beside them.
+/// Made with splashsurf (Löschner et al. 2023); lengths are in particle radii.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    /// Folder of a run
+    run: PathBuf,
+    /// Folder to write [default: the run's]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[arg(
+        long,
+        default_value = "ply",
+        help = "Format of the meshes",
+        value_parser = PossibleValuesParser::new(MESH_FORMATS.iter().map(|f| PossibleValue::new(f.name).help(f.about)))
+            .map(format),
+    )]
+    format: &'static MeshFormat,
+    /// Radius of a particle, metres [default: the run's]
+    #[arg(long, value_name = "R", value_parser = positive)]
+    radius: Option<f64>,
+    /// Smoothing length, radii; the kernel reaches twice as far
+    #[arg(long, value_name = "L", default_value = "2", value_parser = positive)]
+    smoothing_length: f64,
+    /// Edge of the cubes that the surface is made from, radii; smaller is finer and slower
+    #[arg(long, value_name = "L", default_value = "0.75", value_parser = positive)]
+    cube_size: f64,
+    /// Density on the surface, as a share of the rest density
+    #[arg(long, value_name = "SHARE", default_value = "0.6", value_parser = positive)]
+    threshold: f64,
+    /// Leaves normals out
+    #[arg(long)]
+    no_normals: bool,
+    /// Replaces surfaces that are there
+    #[arg(long)]
+    force: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sliceflow run bunny_pour --particles ply --out out/bunny
+  sliceflow surface out/bunny
+  sliceflow surface out/bunny --out out/meshes --format obj --cube-size 0.5";
+
+pub fn main(args: &Args) -> Result<()> {
+    let recorded = Sequence::open(&args.run)?;
+    if recorded.dimensions == 2 {
+        return Err(Error::usage(
+            format!(
+                "{} is a 2D run, whose particles have no surface in space",
+                args.run.display()
+            ),
+            "run a scene with `dimensions` 3",
+        ));
+    }
+    let frames = recorded.frames.len();
+    if (frames as u64) < recorded.wanted {
+        eprintln!(
+            "note: {frames} of {} frames have particle files; surfaces are made of those",
+            recorded.wanted
+        );
+    }
+    let out = args.out.as_ref().unwrap_or(&args.run);
+    let started = Instant::now();
+    let settings = SurfaceSettings {
+        radius: args.radius,
+        smoothing_length: args.smoothing_length,
+        cube_size: args.cube_size,
+        threshold: args.threshold,
+        normals: !args.no_normals,
+        format: args.format,
+        force: args.force,
+    };
+    let made = make_surfaces(&recorded, out, &settings)?;
+    if !made.empty.is_empty() {
+        let frames: Vec<_> = made.empty.iter().map(u32::to_string).collect();
+        eprintln!(
+            "warning: no surface in frame {}: no particle there is dense enough for the threshold",
+            frames.join(", ")
+        );
+    }
+    eprintln!(
+        "done: {} surfaces in {}, {} triangles ({})",
+        made.meshes,
+        out.display(),
+        count(made.triangles),
+        seconds(started.elapsed().as_secs_f64())
+    );
+    Ok(())
+}
+
+/// The row of a name that clap has found among them.
+fn format(name: String) -> &'static MeshFormat {
+    MESH_FORMATS
+        .iter()
+        .find(|format| format.name == name)
+        .expect("one of the possible values")
+}
+
+fn positive(text: &str) -> std::result::Result<f64, String> {
+    match text.parse() {
+        Ok(value) if value > 0.0 && f64::is_finite(value) => Ok(value),
+        _ => Err("give a number above zero".into()),
+    }
+}

@@ -1,0 +1,178 @@
+//! Surfaces of a run's particles: marching cubes over a smoothed density (Löschner et al. 2023, `splashsurf_lib`), a
+//! mesh a frame.
+
+mod mesh_file;
+mod sequence;
+
+use std::path::Path;
+use std::sync::Mutex;
+
+use glam::DVec3;
+use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
+use splashsurf_lib::nalgebra::Vector3;
+use splashsurf_lib::{Parameters, reconstruct_surface};
+
+use super::{disk, interrupt};
+use crate::error::{Error, Result};
+use crate::scene::Dimensions;
+use crate::scene::particle_file;
+
+pub use mesh_file::{MESH_FORMATS, MeshFormat};
+pub use sequence::Sequence;
+
+/// How a surface is made. Lengths are in particle radii, as splashsurf counts them.
+#[derive(Debug, Clone)]
+pub struct SurfaceSettings {
+    /// Metres; the run's own when left out.
+    pub radius: Option<f64>,
+    /// The kernel reaches twice as far.
+    pub smoothing_length: f64,
+    /// Edge of a marching cube.
+    pub cube_size: f64,
+    /// Density on the surface, as a share of the rest density.
+    pub threshold: f64,
+    pub normals: bool,
+    pub format: &'static MeshFormat,
+    /// Whether meshes that are there may be replaced.
+    pub force: bool,
+}
+
+/// What was made.
+#[derive(Debug, Default)]
+pub struct Made {
+    pub meshes: u32,
+    pub triangles: u64,
+    /// Frames whose particles gave no surface.
+    pub empty: Vec<u32>,
+}
+
+/// A mesh with global coordinates.
+struct SurfaceMesh {
+    /// Metres.
+    vertices: Vec<DVec3>,
+    /// Of length one, outward; one a vertex, or none.
+    normals: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// Makes a mesh of each frame that has particle files. Ends early, with what is done, after Ctrl-C.
+pub fn make_surfaces(recorded: &Sequence, out: &Path, settings: &SurfaceSettings) -> Result<Made> {
+    let target = |frame: u32| out.join(format!("surface_{frame:06}.{}", settings.format.name));
+    let there = recorded
+        .frames
+        .iter()
+        .filter(|(frame, _)| target(*frame).exists())
+        .count();
+    if there > 0 && !settings.force {
+        return Err(Error::usage(
+            format!("{} has {there} of these surfaces already", out.display()),
+            "replace them with --force, or choose another folder with --out",
+        ));
+    }
+    std::fs::create_dir_all(out).map_err(|reason| disk::failed(out, "create", reason))?;
+    interrupt::listen();
+    let bar = bar(recorded.frames.len());
+    let made = Mutex::new(Made::default());
+    let done = recorded.frames.par_iter().try_for_each(|(frame, file)| {
+        if interrupt::asked() {
+            return Ok(());
+        }
+        let triangles = match surface(file, recorded.radius, settings)? {
+            Some(mesh) => {
+                disk::write(&target(*frame), &(settings.format.encode)(&mesh))?;
+                mesh.triangles.len() as u64
+            }
+            None => 0,
+        };
+        let mut made = made.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        match triangles {
+            0 => made.empty.push(*frame),
+            _ => made.meshes += 1,
+        }
+        made.triangles += triangles;
+        bar.inc(1);
+        Ok(())
+    });
+    bar.finish_and_clear();
+    let mut made = made
+        .into_inner()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    made.empty.sort_unstable();
+    done?;
+    if interrupt::asked() {
+        return Err(Error::Interrupted {
+            frames_done: made.meshes,
+        });
+    }
+    Ok(made)
+}
+
+fn surface(file: &Path, recorded: f64, settings: &SurfaceSettings) -> Result<Option<SurfaceMesh>> {
+    let particles = particle_file::load(file, Dimensions::Three)
+        .map_err(|what| Error::usage(what, "run the scene again, or remove that frame's files"))?;
+    // Single precision around the particles' own corner, so that nothing is lost far from zero.
+    let origin = particles
+        .position
+        .iter()
+        .copied()
+        .reduce(DVec3::min)
+        .unwrap_or_default();
+    let local: Vec<Vector3<f32>> = particles
+        .position
+        .iter()
+        .map(|p| Vector3::from((*p - origin).as_vec3().to_array()))
+        .collect();
+    let radius = settings.radius.unwrap_or(recorded) as f32;
+    let mut parameters = Parameters::new_relative(
+        radius,
+        2.0 * settings.smoothing_length as f32,
+        settings.cube_size as f32,
+    );
+    parameters.iso_surface_threshold = settings.threshold as f32;
+    let mesh = reconstruct_surface::<i64, f32>(&local, &parameters)
+        .map_err(|reason| {
+            Error::file(
+                file,
+                "make a surface of",
+                reason,
+                "larger cubes (--cube-size) need less memory",
+            )
+        })?
+        .mesh;
+    if mesh.triangles.is_empty() {
+        return Ok(None);
+    }
+    let normals = match settings.normals {
+        true => mesh
+            .par_vertex_normals()
+            .iter()
+            .map(|n| [n.x, n.y, n.z])
+            .collect(),
+        false => Vec::new(),
+    };
+    Ok(Some(SurfaceMesh {
+        vertices: mesh
+            .vertices
+            .iter()
+            .map(|v| DVec3::new(v.x.into(), v.y.into(), v.z.into()) + origin)
+            .collect(),
+        normals,
+        triangles: mesh
+            .triangles
+            .iter()
+            .map(|t| t.map(|index| index as u32))
+            .collect(),
+    }))
+}
+
+/// Hidden where standard error is no terminal.
+fn bar(frames: usize) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} surfaces, {eta} left")
+        .expect("a template that stands above")
+        .progress_chars("━╸ ");
+    ProgressBar::new(frames as u64).with_style(style)
+}
+
+#[cfg(test)]
+mod tests;

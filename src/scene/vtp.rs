@@ -1,0 +1,134 @@
+//! Reads points from VTK's XML format for `PolyData` (.vtp), in the form in which Sliceflow writes it: arrays appended as
+//! raw bytes, little-endian, not compressed.
+
+use std::fs;
+use std::path::Path;
+
+use roxmltree::{Document, Node};
+
+use super::particle_file::{Row, Table, attribute};
+
+pub(super) fn read(path: &Path) -> Result<Table, String> {
+    let name = path.display();
+    let bytes = fs::read(path).map_err(|reason| format!("{name}: {reason}"))?;
+    parse(&bytes).map_err(|what| {
+        format!(
+            "{name}: {what}; save it as VTK PolyData (.vtp) with its data appended raw, without compression, or as PLY"
+        )
+    })
+}
+
+fn parse(bytes: &[u8]) -> Result<Table, String> {
+    let appended = find(bytes, b"<AppendedData").ok_or("no appended data is in it")?;
+    let header = String::from_utf8_lossy(&bytes[..appended]) + "</VTKFile>";
+    let document = Document::parse(&header).map_err(|reason| reason.to_string())?;
+    let file = document.root_element();
+    let is = |name, value| file.attribute(name) == Some(value);
+    if !is("type", "PolyData") || !is("byte_order", "LittleEndian") || file.has_attribute("compressor") {
+        return Err("it is no PolyData that is little-endian and not compressed".into());
+    }
+    let rest = &bytes[appended..];
+    let tag = find(rest, b">").map_or(rest, |end| &rest[..end]);
+    if find(tag, b"\"raw\"").is_none() {
+        return Err("its data is encoded".into());
+    }
+    let start = find(rest, b"_").ok_or("its data has no start")?;
+    let data = Data {
+        bytes: &rest[start + 1..],
+        length_bytes: if is("header_type", "UInt64") { 8 } else { 4 },
+    };
+
+    let mut table = Table {
+        present: [true, true, true, false, false, false, false],
+        noun: "point",
+        rows: Vec::new(),
+    };
+    for piece in file.descendants().filter(|node| node.has_tag_name("Piece")) {
+        let count: usize = number(piece, "NumberOfPoints")?;
+        let first = table.rows.len();
+        table
+            .rows
+            .extend((first..first + count).map(|number| (number, Row::default())));
+        let arrays = |within| {
+            let parent = piece.children().find(move |node| node.has_tag_name(within));
+            parent
+                .into_iter()
+                .flat_map(|node| node.children())
+                .filter(|node| node.has_tag_name("DataArray"))
+        };
+        let points = arrays("Points").map(|array| (array, Some(0)));
+        let attributes = arrays("PointData").map(|array| {
+            let components = number(array, "NumberOfComponents").unwrap_or(1);
+            (
+                array,
+                attribute(array.attribute("Name").unwrap_or_default(), components),
+            )
+        });
+        for (array, column) in points.chain(attributes) {
+            let Some(column) = column else { continue };
+            let components = number(array, "NumberOfComponents").unwrap_or(1);
+            let values = data.array(array, count * components)?;
+            for (row, values) in table.rows[first..]
+                .iter_mut()
+                .zip(values.chunks_exact(components))
+            {
+                row.1.0[column..column + components].copy_from_slice(values);
+            }
+            table.present[column..column + components].fill(true);
+        }
+    }
+    Ok(table)
+}
+
+/// What follows the underscore.
+struct Data<'a> {
+    bytes: &'a [u8],
+    /// Of the number before each array that says its bytes.
+    length_bytes: usize,
+}
+
+impl Data<'_> {
+    fn array(&self, array: Node, count: usize) -> Result<Vec<f64>, String> {
+        let name = array.attribute("Name").unwrap_or("an array");
+        let offset: usize = number(array, "offset")?;
+        let width = match array.attribute("type").unwrap_or_default() {
+            "Float64" | "Int64" | "UInt64" => 8,
+            "Float32" | "Int32" | "UInt32" => 4,
+            "Int16" | "UInt16" => 2,
+            "Int8" | "UInt8" => 1,
+            other => return Err(format!("{name} has the type `{other}`")),
+        };
+        let first = offset + self.length_bytes;
+        let values = self
+            .bytes
+            .get(first..first + count * width)
+            .ok_or_else(|| format!("{name} is cut off"))?;
+        let value = |bytes: &[u8]| match array.attribute("type").unwrap_or_default() {
+            "Float64" => f64::from_le_bytes(fixed(bytes)),
+            "Int64" => i64::from_le_bytes(fixed(bytes)) as f64,
+            "UInt64" => u64::from_le_bytes(fixed(bytes)) as f64,
+            "Float32" => f32::from_le_bytes(fixed(bytes)).into(),
+            "Int32" => i32::from_le_bytes(fixed(bytes)).into(),
+            "UInt32" => u32::from_le_bytes(fixed(bytes)).into(),
+            "Int16" => i16::from_le_bytes(fixed(bytes)).into(),
+            "UInt16" => u16::from_le_bytes(fixed(bytes)).into(),
+            "Int8" => i8::from_le_bytes(fixed(bytes)).into(),
+            _ => bytes[0].into(),
+        };
+        Ok(values.chunks_exact(width).map(value).collect())
+    }
+}
+
+/// As many bytes as the type of a number has.
+fn fixed<const N: usize>(bytes: &[u8]) -> [u8; N] {
+    bytes.try_into().expect("chunks of the type's width")
+}
+
+fn number(node: Node, name: &str) -> Result<usize, String> {
+    let given = node.attribute(name).and_then(|text| text.trim().parse().ok());
+    given.ok_or_else(|| format!("<{}> lacks a whole number `{name}`", node.tag_name().name()))
+}
+
+fn find(bytes: &[u8], pattern: &[u8]) -> Option<usize> {
+    bytes.windows(pattern.len()).position(|window| window == pattern)
+}

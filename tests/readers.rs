@@ -1,0 +1,65 @@
+//! Files that runs write, opened by the programs and libraries that people use for them.
+//!
+//! Those are Python packages (tests/readers/requirements.txt) in the target folder, where `./sliceflow test` installs
+//! them.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Runs a script of tests/readers; returns what it prints.
+fn python(script: &str, arguments: &[&str]) -> String {
+    let python = Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("python/bin/python");
+    assert!(
+        python.exists(),
+        "the readers are not installed in {}\n  mend: ./sliceflow test --test readers installs them",
+        python.display()
+    );
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let output = Command::new(python)
+        .arg(root.join("tests/readers").join(script))
+        .args(arguments)
+        .output()
+        .unwrap();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    assert!(
+        output.status.success(),
+        "{}{}",
+        text(&output.stdout),
+        text(&output.stderr)
+    );
+    text(&output.stdout)
+}
+
+/// Runs a scene; returns the folder of the run.
+fn run(scene: &str, folder: &Path, more: &[&str]) -> PathBuf {
+    let out = folder.join("out");
+    let mut command = assert_cmd::cargo::cargo_bin_cmd!("sliceflow");
+    command
+        .args(["run", scene, "--no-pictures", "--progress", "plain", "--out"])
+        .arg(&out)
+        .args(more)
+        .assert()
+        .success();
+    out
+}
+
+const SCENE_3D: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/common/scene_3d.json");
+
+#[test]
+fn particle_files_are_what_the_arrays_say() {
+    let all = ["--particles", "ply,vtk,bgeo,npy", "--frames", "5", "--fps", "250"];
+    for (scene, every, frames) in [
+        ("column_2d", "2", &["0", "2", "4"][..]),
+        (SCENE_3D, "4", &["0", "4"]),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let out = run(
+            scene,
+            folder.path(),
+            &[&all[..], &["--particles-every", every]].concat(),
+        );
+        let out = out.to_str().unwrap();
+        let told = python("particles.py", &[&[out, "250"], frames].concat());
+        assert_eq!(told.trim(), format!("{} frames agree", frames.len()));
+    }
+}
