@@ -129,7 +129,7 @@ impl VideoOutput {
         let stem = self.path.file_stem().unwrap_or_default().to_string_lossy();
         let stem = match first {
             0 => stem.into_owned(),
-            _ => format!("{stem}_from_{first:06}"),
+            _ => format!("{stem}_from_{first}"),
         };
         let name = format!("{stem}.{}", self.kind.extension);
         Self {
