@@ -219,3 +219,48 @@ fn auto_slices_across_the_axis_with_the_fewest_voxels_and_turns_when_it_grows() 
         );
     }
 }
+
+/// The farthest that any coordinate of two frames lies apart.
+fn apart(a: &Frame, b: &Frame) -> f64 {
+    let pairs = positions(a).iter().zip(positions(b));
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn lists_serve_several_steps_and_miss_no_contact() {
+    for dimensions in [2, 3] {
+        for integrator in ["symplectic_euler", "velocity_verlet"] {
+            // The heap of the test scene, thrown against its walls.
+            let run = |skin: &str, grid: &str| {
+                let choices = [
+                    format!("neighbors.skin={skin}"),
+                    format!("neighbors.addressing={grid}"),
+                    format!("time.integrator={integrator}"),
+                ];
+                let choices: Vec<&str> = choices.iter().map(String::as_str).collect();
+                let scene = common::scene(dimensions, &choices);
+                (frames(&scene, 2), scene)
+            };
+            let (searched, scene) = run("0", "sliced");
+            let moved = apart(&searched[0], &searched[2]);
+            let diameter = 2.0 * scene.grains.radius;
+            assert!(moved > 0.5 * diameter, "nothing happens: {moved} m");
+            for grid in ["uniform", "sliced", "bitmap", "hash"] {
+                for skin in ["0.05", "0.4"] {
+                    let (listed, _) = run(skin, grid);
+                    let error = apart(&searched[2], &listed[2]);
+                    assert!(
+                        error < 2e-3 * diameter,
+                        "{dimensions}D {integrator}, {grid}, skin {skin}: {error} m apart after {} steps",
+                        listed[2].steps
+                    );
+                    assert_eq!(
+                        positions(&run(skin, grid).0[2]),
+                        positions(&listed[2]),
+                        "twice the same"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -140,6 +140,20 @@ fn voxels_of_half_the_radius() {
 }
 
 #[test]
+fn lists_with_a_skin() {
+    for dimensions in [2, 3] {
+        let points = random(dimensions, 1200, 13);
+        for grid in grids() {
+            for skin in ["0.1", "1"] {
+                let skin = format!("neighbors.skin={skin}");
+                let scene = scene_with(dimensions, grid, "y", 64, &points, &[&skin]);
+                check_scene(&format!("{skin}, {dimensions}D, {grid:?}"), &scene);
+            }
+        }
+    }
+}
+
+#[test]
 fn clusters_in_regions_of_their_own() {
     for dimensions in [2, 3] {
         let (min, max, reach) = corners(dimensions);
@@ -172,7 +186,7 @@ fn clusters_in_regions_of_their_own() {
                         axis,
                         64,
                         &points,
-                        &[&regions, "neighbors.margin=1"],
+                        &[&regions, "neighbors.margin=1", "neighbors.skin=0"],
                     )
                 };
                 let (apart, together) = (with(true), with(false));

@@ -15,7 +15,10 @@ use sliceflow::scene::{Dimensions, Particles, Scene};
 
 fn scene_of(dimensions: usize, axis: &str, points: &[Vec3]) -> Scene {
     let axis = format!("neighbors.slicing_axis={axis}");
-    let mut scene = common::scene(dimensions, &[&axis, "colliders=[]", "neighbors.slots=2"]);
+    let mut scene = common::scene(
+        dimensions,
+        &[&axis, "colliders=[]", "neighbors.slots=2", "neighbors.skin=0"],
+    );
     scene.particles = Particles {
         position: points.to_vec(),
         velocity: vec![Vec3::ZERO; points.len()],

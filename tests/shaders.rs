@@ -27,17 +27,15 @@ fn plans() -> Vec<Plan> {
         for addressing in ADDRESSINGS.iter().map(|row| row.name) {
             for storage in STORAGES.iter().map(|row| row.name) {
                 for integrator in ["symplectic_euler", "velocity_verlet"] {
-                    for axis in ["x", "y", "z"] {
+                    for (skin, regions) in [(0.0, false), (0.1, addressing == "sliced")] {
                         for (dashpot, walls) in [("full", "contact"), ("normal", "clamp")] {
-                            if dimensions == 2 && axis == "z" {
-                                continue;
-                            }
                             let scene = common::scene(
                                 dimensions,
                                 &[
                                     &format!("neighbors.addressing={addressing}"),
                                     &format!("neighbors.storage={storage}"),
-                                    &format!("neighbors.slicing_axis={axis}"),
+                                    &format!("neighbors.skin={skin}"),
+                                    &format!("neighbors.regions={regions}"),
                                     &format!("time.integrator={integrator}"),
                                     &format!("grains.dashpot={dashpot}"),
                                     &format!("domain.walls={walls}"),
@@ -62,7 +60,9 @@ fn every_pass_of_every_variant_is_valid_and_finds_its_buffers() {
     for plan in plans() {
         for row in &plan.passes {
             let pass = &row.pass;
-            match Shader::load(&pass.shader, &plan.variant).and_then(|s| s.resources(&pass.entry)) {
+            match Shader::load(&pass.shader, &plan.variant_of(row.phase))
+                .and_then(|s| s.resources(&pass.entry))
+            {
                 Ok(resources) => {
                     for resource in resources {
                         if !plan.buffers.iter().any(|b| b.name == resource.name) {
@@ -84,7 +84,7 @@ fn every_planned_buffer_is_used_by_a_pass() {
     for plan in plans() {
         let mut used = Vec::new();
         for row in &plan.passes {
-            let shader = Shader::load(&row.pass.shader, &plan.variant).unwrap();
+            let shader = Shader::load(&row.pass.shader, &plan.variant_of(row.phase)).unwrap();
             used.extend(
                 shader
                     .resources(&row.pass.entry)
@@ -105,7 +105,7 @@ fn shared_structs_agree_offset_by_offset() {
     let mut seen = std::collections::BTreeSet::new();
     for plan in plans() {
         for row in &plan.passes {
-            let shader = Shader::load(&row.pass.shader, &plan.variant).unwrap();
+            let shader = Shader::load(&row.pass.shader, &plan.variant_of(row.phase)).unwrap();
             for layout in shader.structs() {
                 let Some(host) = SHARED.iter().find(|s| s.name == layout.name) else {
                     continue;

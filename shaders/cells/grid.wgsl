@@ -12,6 +12,10 @@ struct Grid {
     capacity: u32, // voxels that the buffers have room for
     row_capacity: u32, // rows that the tables have room for
     word_capacity: u32, // words of 32 voxels that the bitmap has room for
+    list_capacity: u32, // neighbors that a list has room for
+    frame_steps: u32, // steps of a frame
+    list_reach: f32, // of lists, m: the search radius and the skin
+    list_move: f32, // square of the way that a particle may move while its list serves, m²
 }
 
 var<uniform> grid: Grid;

@@ -9,15 +9,21 @@ struct SearchState {
     words: u32,
     quarantined: u32, // particles that the search does not follow
     quarantined_so_far: atomic<u32>, // the same while they are counted
+    searching: u32, // zero: the grid of an earlier search serves this step
+    longest_list: u32, // of neighbors
 }
 
 var<storage, read_write> search_state: SearchState;
 // Arguments of indirect dispatches: x, y, z, and in w the groups that fit in one dimension (gpu::Items).
 var<storage, read_write> dispatch: array<vec4u>;
 
+const DISPATCH_PARTICLES: u32 = 0u;
 const DISPATCH_VOXELS: u32 = 1u;
 const DISPATCH_SCAN: u32 = 2u;
-const DISPATCHES: u32 = 4u;
+const DISPATCH_SEARCHED: u32 = 4u;
+const DISPATCH_SEARCHED_ONCE: u32 = 5u;
+const DISPATCH_KEPT: u32 = 6u;
+const DISPATCHES: u32 = 7u;
 
 fn set_groups(which: u32, groups: u32) {
     let most = dispatch[which].w;
@@ -38,7 +44,7 @@ fn fits(needed: u32, capacity: u32) -> bool {
 
 // One thread, when the number of voxels is known. Tells whether there is room for them.
 fn set_voxels(voxels: u32) -> bool {
-    if search_state.halted != 0u {
+    if search_state.halted != 0u || search_state.searching == 0u {
         return false;
     }
     search_state.voxels = voxels;

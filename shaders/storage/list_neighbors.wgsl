@@ -3,7 +3,7 @@
 #import common/parameters
 #import common/reach
 #import physics/present
-#import <storage>
+#import <candidates>
 
 var<storage, read> search_radius: f32;
 var<storage, read_write> neighbor_count: array<u32>;
@@ -20,7 +20,7 @@ fn count_neighbors(thread: Thread) {
         return;
     }
     let x = unpack(position[i]);
-    let home = voxel_of(x);
+    let home = around(i, x);
     var count = 0u;
     for (var k = 0u; k < RANGES; k++) {
         let range = candidate_range(home, k);
@@ -39,7 +39,7 @@ fn list_neighbors(thread: Thread) {
         return;
     }
     let x = unpack(position[i]);
-    let home = voxel_of(x);
+    let home = around(i, x);
     var next = neighbor_start[i];
     for (var k = 0u; k < RANGES; k++) {
         let range = candidate_range(home, k);

@@ -67,12 +67,18 @@ pub enum Items {
     VoxelBlocks,
     /// One workgroup.
     Once,
+    /// One a particle, when particles are searched anew; with neighbor lists that is not every step.
+    SearchedParticles,
+    /// One workgroup, when particles are searched anew.
+    SearchedOnce,
+    /// One a particle, when the lists of an earlier search serve.
+    KeptParticles,
     /// A number known beforehand, come what may.
     Fixed(u32),
 }
 
 /// Entries of the buffer `dispatch`: one for each kind of [`Items`] but the last.
-pub const DISPATCHES: u64 = 4;
+pub const DISPATCHES: u64 = 7;
 
 impl Items {
     /// Which entry of `dispatch` has the number of workgroups.
@@ -82,6 +88,9 @@ impl Items {
             Self::Voxels => Some(1),
             Self::VoxelBlocks => Some(2),
             Self::Once => Some(3),
+            Self::SearchedParticles => Some(4),
+            Self::SearchedOnce => Some(5),
+            Self::KeptParticles => Some(6),
             Self::Fixed(_) => None,
         }
     }

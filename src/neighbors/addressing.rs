@@ -132,7 +132,10 @@ fn bounded(search: &mut Search, _: &Scene) {
 }
 
 /// What the host looks at after steps.
-fn search_state(search: &mut Search) {
+pub fn search_state(search: &mut Search) {
+    if search.buffers.iter().any(|buffer| buffer.name == "search_state") {
+        return;
+    }
     search.buffers.push(BufferPlan::storage(
         "search_state",
         1,
@@ -144,8 +147,17 @@ fn search_state(search: &mut Search) {
 /// Regions along one direction: `REGIONS_ALONG` of `cells/regions.wgsl`.
 const REGIONS_ALONG: u64 = 4;
 
+/// Slabs of slices that a scene has.
+pub fn regions(scene: &Scene) -> u64 {
+    if scene.neighbors.regions {
+        REGIONS_ALONG.pow(scene.dimensions.count() as u32 - 1)
+    } else {
+        1
+    }
+}
+
 /// Clusters of slices get slabs of their own (Harada 2007, Section 7).
-fn regions(search: &mut Search) {
+fn part_regions(search: &mut Search) {
     search.flags.push("regions");
     let along = |k: usize| (search.grid.high[k] - search.grid.low[k]) as u64;
     let columns = along(0) + along(2);
@@ -177,10 +189,9 @@ fn regions(search: &mut Search) {
 
 fn sliced(search: &mut Search, scene: &Scene) {
     search_state(search);
-    let mut slices = u64::from(search.grid.slices());
+    let slices = u64::from(search.grid.slices()) * regions(scene);
     if scene.neighbors.regions {
-        regions(search);
-        slices *= REGIONS_ALONG.pow(scene.dimensions.count() as u32 - 1);
+        part_regions(search);
     }
     search.buffers.extend([
         BufferPlan::storage(

@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::Grid;
+use super::addressing::regions;
 use crate::scene::model::Addressing;
 use crate::scene::{Dimensions, Scene};
 
@@ -14,7 +15,7 @@ pub fn most_boxes(scene: &Scene, grid: &Grid) -> u32 {
     match scene.neighbors.addressing {
         Addressing::Sliced => {
             let followed = [0, 1, 2].map(|k| (grid.high[k] - grid.low[k]).max(0) as u32);
-            followed.into_iter().max().unwrap_or(0)
+            followed.into_iter().max().unwrap_or(0) * regions(scene) as u32
         }
         _ => 1,
     }
@@ -23,7 +24,10 @@ pub fn most_boxes(scene: &Scene, grid: &Grid) -> u32 {
 /// Name and bytes of the device buffer that [`boxes`] reads, where boxes change during a run.
 pub fn record(scene: &Scene, grid: &Grid) -> Option<(&'static str, u64)> {
     match scene.neighbors.addressing {
-        Addressing::Sliced => Some(("slice_record", 16 * (u64::from(grid.slices()) + 1))),
+        Addressing::Sliced => Some((
+            "slice_record",
+            16 * (u64::from(grid.slices()) * regions(scene) + 1),
+        )),
         _ => None,
     }
 }
@@ -35,7 +39,9 @@ pub fn boxes(scene: &Scene, grid: &Grid, record: &[u8]) -> Vec<VoxelBox> {
     match scene.neighbors.addressing {
         Addressing::Sliced => {
             let records: Vec<[i32; 4]> = bytemuck::pod_collect_to_vec(record);
-            let pairs = (grid.low[1]..).zip(records.windows(2));
+            // Those of one region after those of the other.
+            let at = (grid.low[1]..grid.high[1]).cycle();
+            let pairs = at.zip(records.windows(2));
             let slice = |(s, pair): (i32, &[[i32; 4]])| {
                 let [first, u, w, width] = pair[0];
                 let voxels = pair[1][0] - first;

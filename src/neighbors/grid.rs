@@ -30,9 +30,20 @@ shared_struct! {
         pub row_capacity: u32,
         /// Words of 32 voxels that the bitmap has room for.
         pub word_capacity: u32,
+        /// Neighbors that a list has room for.
+        pub list_capacity: u32,
+        /// Steps of a frame.
+        pub frame_steps: u32,
+        /// Of lists, metres: the search radius and the skin.
+        pub list_reach: f32,
+        /// Square of the way that a particle may move while its list serves, m².
+        pub list_move: f32,
         pub _pad: [u32; 2],
     }
 }
+
+/// Particles count as moved too far a little early, so that rounding loses no neighbor.
+const MOVE_ROUNDING: f64 = 1e-3;
 
 /// A voxel's coordinates in the order (u, s, w).
 pub type Voxel = [i32; 3];
@@ -46,7 +57,9 @@ impl Grid {
     /// what the side is wider. Coordinates up to n voxels carry an error below 1.5·2⁻²³·n each, so the side is wider
     /// by n·2⁻²¹.
     pub fn new(scene: &Scene, axis: Axis) -> Self {
-        let reach = 2.0 * scene.grains.radius / f64::from(voxel_reach(scene));
+        let radius = 2.0 * scene.grains.radius;
+        let skin = radius * scene.neighbors.skin;
+        let reach = (radius + skin) / f64::from(voxel_reach(scene));
         let domain = &scene.domain;
         let extent = (domain.max - domain.min).as_dvec3();
         let eight_sides = 8.0 * extent.max_element();
@@ -79,6 +92,9 @@ impl Grid {
             inverse_side: (1.0 / side) as f32,
             side: side as f32,
             axis: axis_number(axis),
+            frame_steps: scene.time.steps_per_frame,
+            list_reach: (radius + skin) as f32,
+            list_move: (0.5 * skin * (1.0 - MOVE_ROUNDING)).powi(2) as f32,
             ..Default::default()
         }
     }
@@ -89,6 +105,7 @@ impl Grid {
             capacity: room.voxels,
             row_capacity: room.rows,
             word_capacity: room.words,
+            list_capacity: room.list,
             ..self
         }
     }
@@ -98,6 +115,7 @@ impl Grid {
             voxels: self.capacity,
             rows: self.row_capacity,
             words: self.word_capacity,
+            list: self.list_capacity,
         }
     }
 

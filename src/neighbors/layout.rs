@@ -13,5 +13,35 @@ shared_struct! {
         /// Particles that the search does not follow.
         pub quarantined: u32,
         pub quarantined_so_far: u32,
+        /// Zero: the grid of an earlier search serves this step.
+        pub searching: u32,
+        pub longest_list: u32,
+    }
+}
+
+impl SearchState {
+    /// Before a search.
+    pub const BEFORE: Self = Self {
+        halted: 0,
+        voxels: 0,
+        rows: 0,
+        words: 0,
+        quarantined: 0,
+        quarantined_so_far: 0,
+        searching: 1,
+        longest_list: 0,
+    };
+}
+
+shared_struct! {
+    pub struct ListState {
+        /// Not zero: a particle has moved so far that a neighbor may be missing from a list.
+        pub moved: u32,
+        /// List of the last search, in full.
+        pub longest: u32,
+        /// Steps that searched, since the run began.
+        pub searches: u32,
+        /// Of the clock when the run began or went on.
+        pub first_step: u32,
     }
 }

@@ -7,6 +7,7 @@ pub mod addressing;
 pub mod boxes;
 pub mod grid;
 pub mod layout;
+pub mod lists;
 pub mod occupancy;
 pub mod room;
 mod sort;
@@ -24,6 +25,9 @@ use crate::scene::model::Axis;
 use crate::scene::{Dimensions, Scene};
 use addressing::RoomRule;
 
+/// Shader file that gives physics its candidates straight from the voxels.
+pub const FROM_VOXELS: &str = "storage/from_voxels";
+
 /// Slices are cut across another axis when that needs so much less room.
 const WORTH_TURNING: f64 = 0.9;
 
@@ -33,6 +37,10 @@ pub struct Search {
     pub grid: Grid,
     pub buffers: Vec<BufferPlan>,
     pub passes: Vec<PassPlan>,
+    /// Before `passes` in a step, but not where particles come: whether to search.
+    pub before: Vec<PassPlan>,
+    /// In a step, instead of `passes` when there is no search.
+    pub otherwise: Vec<PassPlan>,
     /// Flags of the variant that the addressing and the storage need.
     flags: Vec<&'static str>,
     /// Constants of the variant that the storage needs.
@@ -76,6 +84,7 @@ pub fn grown_grid(scene: &Scene, grid: Grid, needed: Room, positions: Option<&[V
                 voxels: pick(needed.voxels, has.voxels, more.voxels),
                 rows: pick(needed.rows, has.rows, more.rows),
                 words: pick(needed.words, has.words, more.words),
+                list: pick(needed.list, has.list, more.list),
             })
         }
     }
@@ -83,10 +92,11 @@ pub fn grown_grid(scene: &Scene, grid: Grid, needed: Room, positions: Option<&[V
 
 /// Whether particles can need more room than the grid has.
 pub fn can_grow(scene: &Scene, grid: &Grid) -> bool {
-    match addressing::row(scene.neighbors.addressing).room {
-        RoomRule::Fixed(_) => false,
-        RoomRule::Followed(_) => !room::most(grid).is_within(grid.room()),
-    }
+    lists::wanted(scene)
+        || match addressing::row(scene.neighbors.addressing).room {
+            RoomRule::Fixed(_) => false,
+            RoomRule::Followed(_) => !room::most(grid).is_within(grid.room()),
+        }
 }
 
 /// How much room a scene's grid needs for these local positions, without any margin.
@@ -109,6 +119,9 @@ fn measured(scene: &Scene, axis: Axis, positions: &[Vec3]) -> (Grid, Room) {
         RoomRule::Fixed(room) => room(&mut grid, scene),
         RoomRule::Followed(room) => room(scene, &mut positions.iter().filter_map(|&p| grid.voxel(p))),
     };
+    if lists::wanted(scene) {
+        room.list = lists::usual_length(scene);
+    }
     if scene.dimensions == Dimensions::Two && room.rows > 0 {
         room.rows = grid.slices();
     }
@@ -118,7 +131,10 @@ fn measured(scene: &Scene, axis: Axis, positions: &[Vec3]) -> (Grid, Room) {
 /// The grid with room for what is needed and the scene's margin.
 fn roomy(scene: &Scene, grid: Grid, needed: Room) -> Grid {
     match addressing::row(scene.neighbors.addressing).room {
-        RoomRule::Fixed(_) => grid.with_room(needed),
+        RoomRule::Fixed(_) => grid.with_room(Room {
+            list: needed.with_margin(scene.neighbors.margin, room::most(&grid)).list,
+            ..needed
+        }),
         RoomRule::Followed(_) => {
             grid.with_room(needed.with_margin(scene.neighbors.margin, room::most(&grid)))
         }
@@ -130,10 +146,14 @@ pub fn plan(scene: &Scene, grid: Grid, variant: &mut Variant) -> Search {
     variant
         .role("addressing", addressing::row(scene.neighbors.addressing).query)
         .role("storage", storage::row(scene.neighbors.storage).query)
+        .role("candidates", FROM_VOXELS)
         .constant("SLOTS", scene.neighbors.slots)
         .constant("REACH", grid::voxel_reach(scene))
         .flag("deterministic", scene.neighbors.deterministic);
-    let search = Search::new(scene, grid, scene.capacity);
+    let mut search = Search::new(scene, grid, scene.capacity);
+    if lists::wanted(scene) {
+        lists::plan(&mut search, scene, variant);
+    }
     for flag in &search.flags {
         variant.flag(flag, true);
     }
@@ -157,12 +177,18 @@ impl Search {
                 ),
             ],
             passes: Vec::new(),
+            before: Vec::new(),
+            otherwise: Vec::new(),
             flags: Vec::new(),
             constants: Vec::new(),
             notes: Vec::new(),
             grid,
         };
-        (addressing::row(scene.neighbors.addressing).plan)(&mut search, scene);
+        let addressing = addressing::row(scene.neighbors.addressing);
+        if matches!(addressing.room, RoomRule::Fixed(_)) {
+            search.flags.push("fixed_room");
+        }
+        (addressing.plan)(&mut search, scene);
         (storage::row(scene.neighbors.storage).plan)(&mut search, particles, &scene.neighbors);
         search
     }

@@ -17,6 +17,8 @@ pub struct Room {
     pub rows: u32,
     /// Of 32 voxels each, of `bitmap`.
     pub words: u32,
+    /// Neighbors in a particle's list.
+    pub list: u32,
 }
 
 impl Room {
@@ -30,11 +32,15 @@ impl Room {
             voxels: grown(self.voxels, most.voxels),
             rows: grown(self.rows, most.rows),
             words: grown(self.words, most.words),
+            list: (f64::from(self.list) * margin).ceil().min(f64::from(most.list)) as u32,
         }
     }
 
     pub fn is_within(self, other: Room) -> bool {
-        self.voxels <= other.voxels && self.rows <= other.rows && self.words <= other.words
+        self.voxels <= other.voxels
+            && self.rows <= other.rows
+            && self.words <= other.words
+            && self.list <= other.list
     }
 }
 
@@ -47,6 +53,7 @@ pub fn most(grid: &Grid) -> Room {
         voxels: fit(rows.saturating_mul(along(0))),
         rows: fit(rows),
         words: fit(rows.saturating_mul(along(0).div_ceil(32))),
+        list: u32::MAX,
     }
 }
 
@@ -148,7 +155,7 @@ pub fn of_rows(voxels: &mut dyn Iterator<Item = Voxel>) -> Room {
     Room {
         voxels: fit(voxels),
         rows: fit(rows),
-        words: 0,
+        ..Default::default()
     }
 }
 
@@ -162,5 +169,6 @@ pub fn of_bitmap(voxels: &mut dyn Iterator<Item = Voxel>) -> Room {
         voxels: fit(occupied.len() as u64),
         rows: fit(rows),
         words: fit(words),
+        list: 0,
     }
 }

@@ -151,4 +151,5 @@ pub const SHARED: &[SharedLayout] = &[
     Overflow::LAYOUT,
     crate::neighbors::Grid::LAYOUT,
     crate::neighbors::layout::SearchState::LAYOUT,
+    crate::neighbors::layout::ListState::LAYOUT,
 ];

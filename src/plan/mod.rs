@@ -140,7 +140,9 @@ impl Plan {
         passes.extend(search.passes.iter().map(row(Phase::Start)));
         passes.extend(solver.after_search.iter().map(row(Phase::Start)));
         passes.extend(solver.before_search.iter().map(row(Phase::Step)));
+        passes.extend(search.before.iter().map(row(Phase::Step)));
         passes.extend(search.passes.iter().map(row(Phase::Step)));
+        passes.extend(search.otherwise.iter().map(row(Phase::Step)));
         passes.extend(solver.after_search.iter().map(row(Phase::Step)));
         passes.extend(solver.measure.iter().map(row(Phase::Observe)));
         if wanted.statistics {
@@ -230,15 +232,15 @@ impl Plan {
     /// Most items that a pass has with `particles` particles.
     pub fn most_items(&self, items: Items, particles: u32) -> u32 {
         match items {
-            Items::Particles => particles,
+            Items::Particles | Items::SearchedParticles | Items::KeptParticles => particles,
             Items::Voxels => self.grid.capacity,
             Items::VoxelBlocks => scan_blocks(self.grid.capacity),
-            Items::Once => 1,
+            Items::Once | Items::SearchedOnce => 1,
             Items::Fixed(count) => count,
         }
     }
 
-    /// The buffer `dispatch` for so many particles; where the search finds out how many voxels it has, they are none.
+    /// The buffer `dispatch` for so many particles that are searched anew.
     ///
     /// Rows of x, y, z, and the groups that fit in one dimension.
     pub fn dispatch(&self, particles: u32, limits: &Limits) -> [[u32; 4]; DISPATCHES as usize] {
@@ -248,11 +250,24 @@ impl Plan {
             voxels.div_ceil(GROUP_SIZE),
             scan_blocks(voxels),
             1,
+            particles.div_ceil(GROUP_SIZE),
+            1,
+            0,
         ];
         groups.map(|groups| {
             let (x, y) = fold(groups, limits.groups);
             [x, y, 1, limits.groups]
         })
+    }
+
+    /// What the shaders of a phase's passes are made of. Once a frame, when particles have just been searched, all look
+    /// at the voxels.
+    pub fn variant_of(&self, phase: Phase) -> Variant {
+        let mut variant = self.variant.clone();
+        if phase == Phase::Observe {
+            variant.role("candidates", neighbors::FROM_VOXELS);
+        }
+        variant
     }
 
     pub fn in_phase(&self, phase: Phase) -> impl Iterator<Item = &PassPlan> {

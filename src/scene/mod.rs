@@ -220,6 +220,8 @@ pub struct Neighbors {
     pub cell: Cell,
     /// Indices a voxel of a pool can hold.
     pub slots: u32,
+    /// By which share of the search radius lists of neighbors reach farther; 0 for no lists.
+    pub skin: f64,
     /// Room in the grid's buffers, as a multiple of what is needed when they are made.
     pub margin: f64,
     /// How far beyond open sides the search follows particles, metres; eight times the domain's longest side when
@@ -228,6 +230,9 @@ pub struct Neighbors {
     /// Whether the order of particles must be the same in every run.
     pub deterministic: bool,
 }
+
+/// The share of the search radius that made runs fastest where it was measured.
+const USUAL_SKIN: f64 = 0.1;
 
 impl From<&model::Neighbors> for Neighbors {
     fn from(given: &model::Neighbors) -> Self {
@@ -238,6 +243,10 @@ impl From<&model::Neighbors> for Neighbors {
             regions: given.regions,
             cell: given.cell,
             slots: given.slots,
+            skin: given.skin.unwrap_or(match given.storage {
+                Storage::Pool => 0.0,
+                _ => USUAL_SKIN,
+            }),
             margin: given.margin,
             quarantine_distance: given.quarantine_distance,
             deterministic: given.deterministic,

@@ -481,6 +481,11 @@ pub struct Neighbors {
     /// Indices that a voxel of a `pool` can hold.
     #[schemars(range(min = 1, max = 64))]
     pub slots: u32,
+    /// With more than 0, each particle keeps a list of its neighbors, which reaches farther than the search radius by
+    /// this share of it and serves until a particle has moved by half of that. When left out, 0.1, and 0 with a `pool`,
+    /// whose slots are meant for voxels as wide as the radius.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub skin: Option<f64>,
     /// Room in the grid's buffers, as a multiple of what the particles need when the buffers are made.
     #[schemars(range(min = 1.0, max = 100.0))]
     pub margin: f64,
@@ -502,6 +507,7 @@ impl Default for Neighbors {
             regions: false,
             cell: Cell::default(),
             slots: 4,
+            skin: None,
             margin: 1.5,
             quarantine_distance: None,
             deterministic: true,

@@ -97,6 +97,7 @@ impl Scene {
             // Nothing moves, so nothing has to be followed.
             neighbors: Neighbors {
                 quarantine_distance: Some(0.0),
+                skin: 0.0,
                 ..neighbors
             },
             time: Time {

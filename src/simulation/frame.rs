@@ -26,6 +26,8 @@ pub struct Frame {
     pub overflow: u64,
     /// Particles farther away than the search follows; they find no neighbors.
     pub quarantined: u32,
+    /// Steps since the last frame that searched neighbors anew; in the others earlier lists served.
+    pub searches: u32,
     /// How often the grid's buffers were made larger since the last frame.
     pub growths: u32,
     /// RGBA, 8 bits each, sRGB, rows from the top without padding.

@@ -7,7 +7,7 @@ use super::Simulation;
 use super::passes::Passes;
 use crate::error::{Error, Result};
 use crate::gpu::readback;
-use crate::neighbors::layout::SearchState;
+use crate::neighbors::layout::{ListState, SearchState};
 use crate::neighbors::{self, Grid, Room};
 use crate::physics::layout::Clock;
 use crate::plan::Plan;
@@ -20,6 +20,11 @@ impl Simulation {
         while follows || neighbors::can_grow(&self.scene, &self.plan.grid) {
             let state = self.search_state()?;
             self.quarantined = state.quarantined;
+            if self.buffers.contains("list_state") {
+                let lists = self.buffers.get("list_state", "(host)")?;
+                let lists: Vec<ListState> = readback::read(&self.gpu, lists, 1)?;
+                self.searches[0] = lists[0].searches;
+            }
             if state.halted == 0 {
                 break;
             }
@@ -27,6 +32,7 @@ impl Simulation {
                 voxels: state.voxels,
                 rows: state.rows,
                 words: state.words,
+                list: state.longest_list,
             })?;
             // The particles have moved already; what halted is the search behind that.
             self.search()?;
@@ -59,6 +65,7 @@ impl Simulation {
                 voxels: needed.voxels.max(has.voxels),
                 rows: needed.rows.max(has.rows),
                 words: needed.words.max(has.words),
+                list: needed.list.max(has.list),
             }))
         };
         let plan = plan(grid).or_else(|_| exact()).map_err(|error| match error {
@@ -79,6 +86,7 @@ impl Simulation {
             voxels: state.voxels,
             rows: state.rows.max(self.plan.grid.row_capacity.min(1)),
             words: state.words,
+            list: self.plan.grid.list_capacity,
         });
         let plan = Plan::with_grid(&self.scene, &self.gpu.limits, &self.plan.wanted, grid)?;
         self.rebuild(plan)
@@ -99,8 +107,6 @@ impl Simulation {
         }
         self.plan = plan;
         self.buffers.write(&self.gpu, "grid", 0, &[self.plan.grid])?;
-        self.buffers
-            .write(&self.gpu, "search_state", 0, &[SearchState::default()])?;
         let dispatch = self.plan.dispatch(self.count, &self.gpu.limits);
         self.buffers.write(&self.gpu, "dispatch", 0, &dispatch)
     }

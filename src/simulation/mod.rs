@@ -20,7 +20,8 @@ use crate::error::{Casualty, Error, Result};
 use crate::gpu::readback::Ring;
 use crate::gpu::timing::Timer;
 use crate::gpu::{Buffers, Gpu};
-use crate::neighbors::{Grid, boxes};
+use crate::neighbors::layout::SearchState;
+use crate::neighbors::{Grid, boxes, lists};
 use crate::physics::collider::offset_at;
 use crate::physics::dem;
 use crate::physics::layout::{Clock, Guard, Occupancy, Overflow, Parameters, Sums};
@@ -46,7 +47,7 @@ pub struct Simulation {
     renderer: Option<Renderer>,
     ring: Ring<Pending>,
     timer: Option<Timer>,
-    /// Of the last step that was timed.
+    /// Of a step: the last one of a frame, or the mean over a frame where some steps search and others do not.
     pass_ms: Vec<(String, f64)>,
     next_frame: u32,
     /// Particles that exist.
@@ -59,6 +60,8 @@ pub struct Simulation {
     submitted: u64,
     /// How often the grid's buffers were made larger since the last frame was sent.
     growths: u32,
+    /// Steps that searched, as the device counts them, now and when the last frame was sent.
+    searches: [u32; 2],
     /// Particles that the last search did not follow.
     quarantined: u32,
     /// Frame and steps that a restored state began with.
@@ -70,6 +73,7 @@ struct Pending {
     index: u32,
     particles: u32,
     quarantined: u32,
+    searches: u32,
     growths: u32,
     pass_ms: Vec<(String, f64)>,
     /// As it was; it may grow or turn before the frame arrives.
@@ -105,6 +109,7 @@ impl Simulation {
             happened: 0,
             submitted: 0,
             growths: 0,
+            searches: [0; 2],
             quarantined: 0,
             restored: (0, 0),
             scene: scene.clone(),
@@ -288,6 +293,10 @@ impl Simulation {
 
     /// Searches neighbors of what stands in `next_position`, and does what a step does after its search.
     fn search(&self) -> Result<()> {
+        if self.buffers.contains("search_state") {
+            self.buffers
+                .write(&self.gpu, "search_state", 0, &[SearchState::BEFORE])?;
+        }
         let mut encoder = self.encoder("search");
         let mut compute = encoder.begin_compute_pass(&Default::default());
         for step in &self.passes.start {
@@ -303,15 +312,42 @@ impl Simulation {
         if self.count == 0 {
             return Ok(());
         }
-        let timed = u32::from(ends_frame && self.timer.is_some());
+        let timed = match (ends_frame && self.timer.is_some(), lists::wanted(&self.scene)) {
+            (false, _) => 0,
+            (true, false) => 1,
+            // The last one searches; the one before most likely does not.
+            (true, true) => 2.min(steps),
+        };
         self.submit_steps(u64::from(steps - timed))?;
         self.settle()?;
-        if timed == 1 {
+        let mut kept = None;
+        for _ in 0..timed {
             self.submitted += 1;
-            self.pass_ms = self.time(&self.passes.step)?;
+            let times = self.time(&self.passes.step)?;
             self.settle()?;
+            kept = Some(std::mem::replace(&mut self.pass_ms, times));
+        }
+        if let (2, Some(kept)) = (timed, kept) {
+            let share = f64::from(self.searches[0].wrapping_sub(self.searches[1]))
+                / f64::from(self.scene.time.steps_per_frame);
+            for ((_, ms), (_, kept_ms)) in self.pass_ms.iter_mut().zip(&kept) {
+                *ms = share * *ms + (1.0 - share) * kept_ms;
+            }
         }
         Ok(())
+    }
+
+    /// Steps that searched since the frame before this one.
+    fn searches_since_last_frame(&mut self, index: u32) -> u32 {
+        let [now, before] = self.searches;
+        self.searches[1] = now;
+        if lists::wanted(&self.scene) {
+            now.wrapping_sub(before)
+        } else if index == 0 {
+            0
+        } else {
+            self.scene.time.steps_per_frame
+        }
     }
 
     fn submit_steps(&mut self, steps: u64) -> Result<()> {
@@ -391,6 +427,7 @@ impl Simulation {
             index,
             particles: self.count,
             quarantined: self.quarantined,
+            searches: self.searches_since_last_frame(index),
             growths: std::mem::take(&mut self.growths),
             pass_ms,
             grid: self.plan.grid,
@@ -486,6 +523,7 @@ impl Simulation {
             particles: pending.particles,
             overflow: u64::from(overflow.since_last_frame),
             quarantined: pending.quarantined,
+            searches: pending.searches,
             growths: pending.growths,
             pixels: by_name.get("frame_pixels").map(|pixels| pixels.to_vec()),
             statistics,

@@ -41,10 +41,11 @@ impl Passes {
             buffers.write(gpu, "pass_index", first, &[*index])?;
         }
         let mut made = |phase| -> Result<Vec<Step>> {
+            let variant = plan.variant_of(phase);
             let step = |planned: &PassPlan| {
                 let key = (planned.shader.clone(), planned.entry.clone());
                 if !kernels.contains_key(&key) {
-                    let shader = Shader::load(&planned.shader, &plan.variant)?;
+                    let shader = Shader::load(&planned.shader, &variant)?;
                     kernels.insert(key.clone(), Kernel::new(gpu, &shader, &planned.entry)?);
                 }
                 let kernel = &kernels[&key];

@@ -11,6 +11,7 @@ use super::{Frame, Simulation};
 use crate::error::Result;
 use crate::gpu::readback;
 use crate::neighbors::Grid;
+use crate::neighbors::layout::ListState;
 use crate::physics::dem;
 use crate::physics::layout::{Clock, Overflow};
 use crate::plan::Plan;
@@ -202,6 +203,13 @@ impl Simulation {
         self.restored = (state.frame, clock.step);
         self.submitted = u64::from(clock.step);
         self.buffers.write(&self.gpu, "clock", 0, &[clock])?;
+        if self.buffers.contains("list_state") {
+            let lists = ListState {
+                first_step: clock.step,
+                ..Default::default()
+            };
+            self.buffers.write(&self.gpu, "list_state", 0, &[lists])?;
+        }
         // The search puts every particle where it stood, since it keeps the order inside a voxel.
         for (name, next) in PARTICLE_BUFFERS {
             self.put(next, state.buffer(name))?;

@@ -24,7 +24,7 @@ pub fn base(name: &str, voxels: [u32; 3]) -> Value {
         "domain": { "min": [0, 0, 0], "max": extent },
         "grains": { "radius": RADIUS, "density": 2500, "spring": 1000, "restitution": 0.5, "shear": 0.1 },
         "bodies": [],
-        "neighbors": { "slicing_axis": "y" },
+        "neighbors": { "slicing_axis": "y", "skin": 0 },
         "time": { "duration": 1, "fps": 60, "steps_per_contact": 20 },
         "render": {
             "size": [720, 720],

@@ -1,10 +1,10 @@
-// All contacts of one grain: with grains, walls and obstacles. Knows nothing of the grid behind `<storage>`.
+// All contacts of one grain: with grains, walls and obstacles. Knows nothing of the grid behind `<candidates>`.
 #import common/vector
 #import common/parameters
 #import common/reach
 #import physics/present
 #import physics/dem/law
-#import <storage>
+#import <candidates>
 #if contact_walls
 #import physics/dem/walls
 #end
@@ -16,7 +16,7 @@ fn sum_contacts(i: u32) -> ContactSum {
     var sum = ContactSum();
     let x = unpack(position[i]);
     let v = unpack(velocity[i]);
-    let home = voxel_of(x);
+    let home = around(i, x);
     for (var k = 0u; k < RANGES; k++) {
         let range = candidate_range(home, k);
         for (var slot = range.x; slot < range.y; slot++) {

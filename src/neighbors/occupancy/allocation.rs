@@ -69,6 +69,8 @@ impl Allocation {
             grid: Grid::default().with_room(room),
             buffers: Vec::new(),
             passes: Vec::new(),
+            before: Vec::new(),
+            otherwise: Vec::new(),
             flags: Vec::new(),
             constants: Vec::new(),
             notes: Vec::new(),

@@ -83,6 +83,7 @@ pub mod samples {
             overflow: 0,
             quarantined: 0,
             growths: 0,
+            searches: 0,
             pixels: None,
             voxels: None,
             statistics: None,

@@ -1,0 +1,16 @@
+// Whether every list had room.
+#import common/vector
+#import common/thread
+#import cells/grid
+#import cells/growth
+#import storage/lists/state
+
+@compute @workgroup_size(1)
+fn check_lists() {
+    if search_state.halted != 0u || search_state.searching == 0u {
+        return;
+    }
+    search_state.longest_list = atomicLoad(&list_state.longest);
+    atomicStore(&list_state.longest, 0u);
+    _ = fits(search_state.longest_list, grid.list_capacity);
+}
