@@ -77,7 +77,12 @@ impl Bench {
 /// The scene of the tests, with a uniform grid and room for so many particles.
 fn scene(storage: &str, capacity: usize, overrides: &[&str]) -> Scene {
     let storage = format!("neighbors.storage={storage}");
-    let mut all = vec!["neighbors.addressing=uniform", &storage, "colliders=[]"];
+    let mut all = vec![
+        "neighbors.addressing=uniform",
+        &storage,
+        "neighbors.skin=0",
+        "colliders=[]",
+    ];
     all.extend(overrides);
     let mut scene = common::scene(3, &all);
     scene.capacity = capacity.max(1) as u32;
@@ -235,6 +240,7 @@ fn flat(n: u32) -> Scene {
         &[
             "neighbors.addressing=uniform",
             "neighbors.storage=bitonic",
+            "neighbors.skin=0",
             "colliders=[]",
         ],
     );
