@@ -9,7 +9,7 @@ use crate::output::{self, Checkpoints, Every, Outputs, Recorded, Settings, progr
 
 /// Draws a run's frames again without simulating: another camera, color, size or view
 ///
-/// Particles come from the run's particle files (`--particles npy`) or its checkpoints; frames that have neither are
+/// Particles come from the run's particle files (`--particles`, any format) or its checkpoints; frames that have neither are
 /// left out and told. Colors by contacts, density or pressure are measured again, by one search a frame.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]

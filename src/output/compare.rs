@@ -83,7 +83,7 @@ impl Comparison {
         if compared == 0 {
             return Err(Error::usage(
                 format!("{} and {} have no frame in common", a.display(), b.display()),
-                "give the folders of two runs; the same --particles npy in both shows the most",
+                "give the folders of two runs; the same --particles vtk (or ply, bgeo, npy) in both shows the most",
             ));
         }
         Ok(comparison)
@@ -123,14 +123,19 @@ impl Comparison {
         let rows = a.values.chunks_exact(width).zip(b.values.chunks_exact(width));
         let (mut particles, mut max, mut squares) = (0, 0.0f64, 0.0);
         let count = a.particles().min(b.particles());
+        // What one file has rounded is compared as such.
+        let rounded = |value: f64| match a.is_rounded == b.is_rounded {
+            true => value,
+            false => f64::from(value as f32),
+        };
         for (id, (one, two)) in rows.enumerate() {
-            let differs = |i: &usize| one[*i].to_bits() != two[*i].to_bits();
+            let differs = |i: &usize| rounded(one[*i]).to_bits() != rounded(two[*i]).to_bits();
             let Some(component) = (0..width).find(differs) else {
                 continue;
             };
             particles += 1;
             for (x, y) in one.iter().zip(two) {
-                let difference = (x - y).abs();
+                let difference = (rounded(*x) - rounded(*y)).abs();
                 // Where one is not a number, the difference is as large as can be.
                 let difference = if difference.is_nan() {
                     f64::INFINITY

@@ -1,4 +1,4 @@
-//! Particles of a run's frames, read back from its NumPy arrays or its checkpoints.
+//! Particles of a run's frames, read back from its particle files or its checkpoints.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -6,10 +6,13 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use super::checkpoint::Checkpoint;
-use super::rewind::numbered;
+use super::particles::{FORMATS, found};
+use super::rewind::checkpoints;
 use crate::error::{Error, Result};
-use crate::scene::Dimensions;
+use crate::scene::particle_file;
 use crate::simulation::State;
+
+const UNREADABLE: &str = "was it written whole? remove it, and do without its frame";
 
 /// Which frames of a run can be read back, and from what.
 pub struct ReadBack {
@@ -27,28 +30,19 @@ pub struct Snapshot {
 /// One column of a frame.
 pub struct Column {
     pub name: String,
-    /// Numbers a particle.
+    /// Numbers a particle: 3 of a vector (z is 0 in 2D), otherwise 1.
     pub width: usize,
     /// In order of id.
     pub values: Vec<f64>,
+    /// Whether the file rounded to single precision what others keep in double.
+    pub is_rounded: bool,
 }
 
 impl ReadBack {
-    /// Looks into a run's folder; arrays come before checkpoints, since they hold more.
+    /// Looks into a run's folder; particle files come before checkpoints, since they hold more columns.
     pub fn open(folder: &Path) -> Result<Self> {
-        let mut frames = BTreeMap::new();
-        for (frame, path) in numbered(folder)? {
-            let name = path
-                .file_name()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .into_owned();
-            if name.starts_with("particles_") && path.is_dir() {
-                frames.insert(frame, path);
-            } else if name.starts_with("checkpoint_") && name.ends_with(".bin") {
-                frames.entry(frame).or_insert(path);
-            }
-        }
+        let mut frames: BTreeMap<u32, PathBuf> = checkpoints(folder)?.into_iter().collect();
+        frames.extend(found::find(folder)?);
         Ok(Self { frames })
     }
 
@@ -64,8 +58,10 @@ impl ReadBack {
         };
         let snapshot = if path.is_dir() {
             Snapshot::from_arrays(path)
-        } else {
+        } else if path.extension().is_some_and(|extension| extension == "bin") {
             Snapshot::from_checkpoint(path)
+        } else {
+            Snapshot::from_points(path)
         };
         snapshot.map(Some)
     }
@@ -81,14 +77,8 @@ impl Snapshot {
     }
 
     fn from_arrays(folder: &Path) -> Result<Self> {
-        let failed = |path: &Path, reason: &dyn std::fmt::Display| {
-            Error::file(
-                path,
-                "read",
-                reason,
-                "was it written whole? `sliceflow resume` makes it again",
-            )
-        };
+        let failed =
+            |path: &Path, reason: &dyn std::fmt::Display| Error::file(path, "read", reason, UNREADABLE);
         let mut paths = Vec::new();
         for entry in std::fs::read_dir(folder).map_err(|reason| failed(folder, &reason))? {
             let path = entry.map_err(|reason| failed(folder, &reason))?.path();
@@ -104,6 +94,25 @@ impl Snapshot {
         Ok(Self { columns, state: None })
     }
 
+    fn from_points(path: &Path) -> Result<Self> {
+        let attributes =
+            particle_file::load_attributes(path).map_err(|what| Error::usage(what, UNREADABLE))?;
+        let ending = path.extension().unwrap_or_default().to_string_lossy();
+        let is_single = FORMATS
+            .iter()
+            .any(|format| format.is_single_precision && format.file.ends_with(&*ending));
+        let column = |attribute: particle_file::Attribute| Column {
+            is_rounded: is_single && attribute.name == "position",
+            name: attribute.name,
+            width: attribute.width,
+            values: attribute.values,
+        };
+        Ok(Self {
+            columns: attributes.into_iter().map(column).collect(),
+            state: None,
+        })
+    }
+
     fn from_checkpoint(path: &Path) -> Result<Self> {
         let state = Checkpoint::read(path)
             .map_err(|wrong| Error::file(path, "read", wrong, "remove it, and do without its frame"))?
@@ -112,10 +121,6 @@ impl Snapshot {
         for (slot, id) in state.ids().into_iter().enumerate() {
             slot_of[id as usize] = slot;
         }
-        let width = match state.dimensions {
-            Dimensions::Two => 2,
-            Dimensions::Three => 3,
-        };
         let column = |name: &str| {
             let vectors = state.vectors(name)?;
             let origin = if name == "position" {
@@ -123,14 +128,14 @@ impl Snapshot {
             } else {
                 Default::default()
             };
-            let values = slot_of.iter().flat_map(|&slot| {
-                let vector = (vectors[slot].as_dvec3() + origin).to_array();
-                vector.into_iter().take(width)
-            });
+            let values = slot_of
+                .iter()
+                .flat_map(|&slot| (vectors[slot].as_dvec3() + origin).to_array());
             Some(Column {
                 name: name.to_owned(),
-                width,
+                width: 3,
                 values: values.collect(),
+                is_rounded: false,
             })
         };
         let columns = ["position", "velocity", "acceleration"];
@@ -149,7 +154,7 @@ impl Column {
     fn from_npy(path: &Path) -> std::io::Result<Self> {
         let array = npyz::NpyFile::new(BufReader::new(File::open(path)?))?;
         let width = array.shape().get(1).map_or(1, |&width| width as usize);
-        let values = match array.try_data::<f64>() {
+        let values: Vec<f64> = match array.try_data::<f64>() {
             Ok(data) => data.collect::<std::io::Result<_>>()?,
             Err(array) => match array.try_data::<f32>() {
                 Ok(data) => data
@@ -162,14 +167,19 @@ impl Column {
                     .collect::<std::io::Result<_>>()?,
             },
         };
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let (width, values) = match width {
+            2 => (
+                3,
+                values.chunks_exact(2).flat_map(|v| [v[0], v[1], 0.0]).collect(),
+            ),
+            _ => (width, values),
+        };
         Ok(Self {
-            name: path
-                .file_stem()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .into_owned(),
+            name: name.into_owned(),
             width,
             values,
+            is_rounded: false,
         })
     }
 }

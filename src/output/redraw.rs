@@ -46,8 +46,10 @@ pub fn redraw(recorded: &Recorded, overrides: &[String], settings: &Settings) ->
     let from = recorded.folder.display();
     let (Some(first), Some(last)) = (frames.first(), frames.last()) else {
         return Err(Error::usage(
-            format!("{from} holds no particles to draw: neither arrays with positions nor checkpoints"),
-            "run it again with --particles npy, or with --checkpoint-every 1 --keep-checkpoints 1000000",
+            format!(
+                "{from} holds no particles to draw: neither particle files with positions nor checkpoints"
+            ),
+            "run it again with --particles vtk (or ply, bgeo, npy), or with --checkpoint-every 1 --keep-checkpoints 1000000",
         ));
     };
     let folder = Arc::new(Folder::open(&settings.folder, settings.force)?);
@@ -56,7 +58,7 @@ pub fn redraw(recorded: &Recorded, overrides: &[String], settings: &Settings) ->
     let missing = made.filter(|frame| frames.binary_search(frame).is_err()).count();
     let missing = match missing {
         0 => String::new(),
-        missing => format!("; {missing} others have neither arrays nor checkpoints"),
+        missing => format!("; {missing} others have neither particle files nor checkpoints"),
     };
     progress.note(&format!(
         "drawing {} frames of {from}, from {first} to {last}{missing}",
@@ -137,9 +139,10 @@ pub fn redraw(recorded: &Recorded, overrides: &[String], settings: &Settings) ->
 /// What the device starts from to draw a frame.
 fn state(scene: &Scene, frame: u32, snapshot: Snapshot) -> State {
     let vectors = |name: &str| -> Vec<DVec3> {
-        let vector = |v: &[f64]| DVec3::new(v[0], v[1], v.get(2).copied().unwrap_or(0.0));
         let column = snapshot.column(name);
-        column.map_or_else(Vec::new, |c| c.values.chunks_exact(c.width).map(vector).collect())
+        column.map_or_else(Vec::new, |c| {
+            c.values.chunks_exact(c.width).map(DVec3::from_slice).collect()
+        })
     };
     let position = vectors("position");
     let mut velocity: Vec<Vec3> = vectors("velocity").iter().map(|v| v.as_vec3()).collect();

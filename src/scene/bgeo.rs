@@ -6,7 +6,7 @@ use std::path::Path;
 
 use flate2::read::GzDecoder;
 
-use super::particle_file::{Row, Table, attribute};
+use super::particle_file::{NamedColumn, Table, columns_of};
 
 pub(super) fn read(path: &Path) -> Result<Table, String> {
     let name = path.display();
@@ -29,13 +29,6 @@ fn unpacked(path: &Path) -> std::io::Result<Vec<u8>> {
     Ok(unpacked)
 }
 
-/// Where an attribute's numbers go, how many they are, and whether they are integers.
-struct Attribute {
-    column: Option<usize>,
-    size: usize,
-    is_integer: bool,
-}
-
 fn parse(mut rest: &[u8]) -> Option<Table> {
     let rest = &mut rest;
     if rest.split_off(..5)? != b"BgeoV" || int(rest)? != 5 {
@@ -46,8 +39,9 @@ fn parse(mut rest: &[u8]) -> Option<Table> {
     let count = int(rest)?;
     let [_of_vertices, _of_primitives, _of_all] = [int(rest)?, int(rest)?, int(rest)?];
 
-    let mut present = [true, true, true, false, false, false, false];
-    let mut attributes = Vec::new();
+    let column = |name: String| (name, Vec::new());
+    let mut columns: Vec<NamedColumn> = ["x", "y", "z"].map(|axis| column(axis.into())).into();
+    let mut are_integers = Vec::new();
     for _ in 0..count {
         let length = short(rest)?;
         let name = String::from_utf8_lossy(rest.split_off(..length)?);
@@ -58,46 +52,27 @@ fn parse(mut rest: &[u8]) -> Option<Table> {
             return None;
         }
         rest.split_off(..4 * size)?;
-        let column = attribute(&name, size);
-        if let Some(column) = column {
-            present[column..column + size].fill(true);
-        }
-        attributes.push(Attribute {
-            column,
-            size,
-            is_integer: kind == 1,
-        });
+        columns.extend(columns_of(&name, size).into_iter().map(column));
+        are_integers.extend(std::iter::repeat_n(kind == 1, size));
     }
 
-    let stride = 4 * (4 + attributes.iter().map(|a| a.size).sum::<usize>());
+    let (coordinates, attributes) = columns.split_at_mut(3);
+    let stride = 4 * (4 + attributes.len());
     let mut data = rest.split_off(..stride.checked_mul(points)?)?;
     let data = &mut data;
-    let mut rows = Vec::with_capacity(points);
-    for number in 0..points {
-        let mut row = Row::default();
-        for coordinate in &mut row.0[..3] {
-            *coordinate = float(data)?;
+    for _ in 0..points {
+        for (_, values) in &mut *coordinates {
+            values.push(float(data)?);
         }
         let _weight = float(data)?;
-        for attribute in &attributes {
-            for component in 0..attribute.size {
-                let value = if attribute.is_integer {
-                    f64::from(int(data)?)
-                } else {
-                    float(data)?
-                };
-                if let Some(column) = attribute.column {
-                    row.0[column + component] = value;
-                }
-            }
+        for ((_, values), &is_integer) in attributes.iter_mut().zip(&are_integers) {
+            values.push(match is_integer {
+                true => f64::from(int(data)?),
+                false => float(data)?,
+            });
         }
-        rows.push((number, row));
     }
-    Some(Table {
-        present,
-        noun: "point",
-        rows,
-    })
+    Some(Table::new("point", columns))
 }
 
 fn int(rest: &mut &[u8]) -> Option<i32> {

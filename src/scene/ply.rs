@@ -5,14 +5,13 @@ use std::io::BufReader;
 use std::path::Path;
 
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
+use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult, PropertyType};
 
-use super::particle_file::{Row, column};
+use super::particle_file::NamedColumn;
 
 pub struct PlyFile {
-    /// Properties that each vertex has, as the file names them.
-    pub properties: Vec<String>,
-    pub vertices: Vec<Row>,
+    /// The numbers that each vertex has, as the file names them.
+    pub vertices: Vec<NamedColumn>,
     /// Vertex indices of each polygon, counted from 0, unchecked.
     pub faces: Vec<Vec<i64>>,
 }
@@ -32,7 +31,6 @@ pub fn read(path: &Path) -> Result<PlyFile, String> {
     let mut reader = Reader::new(BufReader::new(file));
     let header = Parser::<Row>::new().read_header(&mut reader).map_err(explain)?;
     let mut ply = PlyFile {
-        properties: Vec::new(),
         vertices: Vec::new(),
         faces: Vec::new(),
     };
@@ -47,24 +45,30 @@ pub fn read(path: &Path) -> Result<PlyFile, String> {
                 .read_payload_for_element(&mut reader, element, &header)
                 .map_err(explain)?;
             if name == "vertex" {
-                ply.properties = element.properties.keys().cloned().collect();
-                ply.vertices = rows;
+                let numbers = element.properties.iter();
+                let numbers =
+                    numbers.filter(|(_, property)| matches!(property.data_type, PropertyType::Scalar(_)));
+                let column = |place: usize| rows.iter().map(|row| row.0[place]).collect();
+                let named = numbers
+                    .enumerate()
+                    .map(|(place, (name, _))| (name.clone(), column(place)));
+                ply.vertices = named.collect();
             }
         }
     }
     Ok(ply)
 }
 
+/// An element's numbers in the order of its properties, without its lists.
+struct Row(Vec<f64>);
+
 impl PropertyAccess for Row {
     fn new() -> Self {
-        Row::default()
+        Row(Vec::new())
     }
 
-    fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
-        let Some(column) = column(name) else {
-            return PropertyAccessResult::Ignored;
-        };
-        self.0[column] = match value {
+    fn set_property(&mut self, _name: &str, value: Property) -> PropertyAccessResult {
+        self.0.push(match value {
             Property::Char(v) => v.into(),
             Property::UChar(v) => v.into(),
             Property::Short(v) => v.into(),
@@ -73,8 +77,8 @@ impl PropertyAccess for Row {
             Property::UInt(v) => v.into(),
             Property::Float(v) => v.into(),
             Property::Double(v) => v,
-            _ => return PropertyAccessResult::UnsupportedType,
-        };
+            _ => return PropertyAccessResult::Ignored,
+        });
         PropertyAccessResult::Set
     }
 }

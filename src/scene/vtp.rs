@@ -6,7 +6,7 @@ use std::path::Path;
 
 use roxmltree::{Document, Node};
 
-use super::particle_file::{Row, Table, attribute};
+use super::particle_file::{NamedColumn, Table, columns_of, is_known};
 
 pub(super) fn read(path: &Path) -> Result<Table, String> {
     let name = path.display();
@@ -38,17 +38,10 @@ fn parse(bytes: &[u8]) -> Result<Table, String> {
         length_bytes: if is("header_type", "UInt64") { 8 } else { 4 },
     };
 
-    let mut table = Table {
-        present: [true, true, true, false, false, false, false],
-        noun: "point",
-        rows: Vec::new(),
-    };
+    let mut columns: Vec<NamedColumn> = Vec::new();
+    let mut rows = 0;
     for piece in file.descendants().filter(|node| node.has_tag_name("Piece")) {
         let count: usize = number(piece, "NumberOfPoints")?;
-        let first = table.rows.len();
-        table
-            .rows
-            .extend((first..first + count).map(|number| (number, Row::default())));
         let arrays = |within| {
             let parent = piece.children().find(move |node| node.has_tag_name(within));
             parent
@@ -56,28 +49,41 @@ fn parse(bytes: &[u8]) -> Result<Table, String> {
                 .flat_map(|node| node.children())
                 .filter(|node| node.has_tag_name("DataArray"))
         };
-        let points = arrays("Points").map(|array| (array, Some(0)));
+        let points = arrays("Points").map(|array| (array, ["x", "y", "z"].map(String::from).into()));
         let attributes = arrays("PointData").map(|array| {
             let components = number(array, "NumberOfComponents").unwrap_or(1);
             (
                 array,
-                attribute(array.attribute("Name").unwrap_or_default(), components),
+                columns_of(array.attribute("Name").unwrap_or_default(), components),
             )
         });
-        for (array, column) in points.chain(attributes) {
-            let Some(column) = column else { continue };
-            let components = number(array, "NumberOfComponents").unwrap_or(1);
-            let values = data.array(array, count * components)?;
-            for (row, values) in table.rows[first..]
-                .iter_mut()
-                .zip(values.chunks_exact(components))
-            {
-                row.1.0[column..column + components].copy_from_slice(values);
+        for (array, names) in points.chain(attributes) {
+            if !names.iter().any(|name| is_known(name)) && !Data::can_read(array) {
+                continue;
             }
-            table.present[column..column + components].fill(true);
+            let values = data.array(array, count * names.len())?;
+            for (component, name) in names.iter().enumerate() {
+                let place = columns
+                    .iter()
+                    .position(|(known, _)| known == name)
+                    .unwrap_or_else(|| {
+                        columns.push((name.clone(), Vec::new()));
+                        columns.len() - 1
+                    });
+                let column = &mut columns[place].1;
+                if column.len() <= rows {
+                    // Earlier pieces may lack it.
+                    column.resize(rows, 0.0);
+                    column.extend(values.iter().skip(component).step_by(names.len()));
+                }
+            }
         }
+        rows += count;
     }
-    Ok(table)
+    for (_, column) in &mut columns {
+        column.resize(rows, 0.0);
+    }
+    Ok(Table::new("point", columns))
 }
 
 /// What follows the underscore.
@@ -88,22 +94,22 @@ struct Data<'a> {
 }
 
 impl Data<'_> {
+    /// Text, and what stands between the tags, is passed over.
+    fn can_read(array: Node) -> bool {
+        array.has_attribute("offset") && array.attribute("type").and_then(width).is_some()
+    }
+
     fn array(&self, array: Node, count: usize) -> Result<Vec<f64>, String> {
         let name = array.attribute("Name").unwrap_or("an array");
         let offset: usize = number(array, "offset")?;
-        let width = match array.attribute("type").unwrap_or_default() {
-            "Float64" | "Int64" | "UInt64" => 8,
-            "Float32" | "Int32" | "UInt32" => 4,
-            "Int16" | "UInt16" => 2,
-            "Int8" | "UInt8" => 1,
-            other => return Err(format!("{name} has the type `{other}`")),
-        };
+        let kind = array.attribute("type").unwrap_or_default();
+        let width = width(kind).ok_or_else(|| format!("{name} has the type `{kind}`"))?;
         let first = offset + self.length_bytes;
         let values = self
             .bytes
             .get(first..first + count * width)
             .ok_or_else(|| format!("{name} is cut off"))?;
-        let value = |bytes: &[u8]| match array.attribute("type").unwrap_or_default() {
+        let value = |bytes: &[u8]| match kind {
             "Float64" => f64::from_le_bytes(fixed(bytes)),
             "Int64" => i64::from_le_bytes(fixed(bytes)) as f64,
             "UInt64" => u64::from_le_bytes(fixed(bytes)) as f64,
@@ -116,6 +122,17 @@ impl Data<'_> {
             _ => bytes[0].into(),
         };
         Ok(values.chunks_exact(width).map(value).collect())
+    }
+}
+
+/// Bytes of a number.
+fn width(kind: &str) -> Option<usize> {
+    match kind {
+        "Float64" | "Int64" | "UInt64" => Some(8),
+        "Float32" | "Int32" | "UInt32" => Some(4),
+        "Int16" | "UInt16" => Some(2),
+        "Int8" | "UInt8" => Some(1),
+        _ => None,
     }
 }
 

@@ -3,6 +3,7 @@
 mod bgeo;
 mod cloud;
 mod formats;
+pub(super) mod found;
 mod ply;
 mod pvd;
 #[cfg(test)]

@@ -89,20 +89,17 @@ fn from_obj(path: &Path) -> Result<Polygons, String> {
 
 fn from_ply(path: &Path) -> Result<Polygons, String> {
     let file = ply::read(path)?;
-    if let Some(missing) = ["x", "y", "z"]
-        .into_iter()
-        .find(|axis| !file.properties.iter().any(|property| property == axis))
-    {
-        return Err(format!(
-            "{}: vertices have no property {missing}; export the mesh with x, y and z",
-            path.display()
-        ));
-    }
-    let vertices = file
-        .vertices
-        .iter()
-        .map(|row| DVec3::from_slice(&row.0))
-        .collect();
+    let axis = |wanted: &str| {
+        let column = file.vertices.iter().find(|(name, _)| name == wanted);
+        column.map(|(_, values)| values).ok_or_else(|| {
+            format!(
+                "{}: vertices have no property {wanted}; export the mesh with x, y and z",
+                path.display()
+            )
+        })
+    };
+    let coordinates = axis("x")?.iter().zip(axis("y")?).zip(axis("z")?);
+    let vertices = coordinates.map(|((&x, &y), &z)| DVec3::new(x, y, z)).collect();
     Ok((vertices, file.faces))
 }
 
