@@ -12,7 +12,8 @@ use crate::output::text::count;
 /// Compares two runs: the first frame, particle and column that differ, by how much, and how it grows
 ///
 /// Particles come from the runs' particle files (`--particles`, any format) or checkpoints; statistics and pictures
-/// are compared too. Between formats, positions are compared as exactly as both keep them. Exit status: 0 where everything that both have is equal, 1 where something differs, 2 on trouble.
+/// are compared too. Between formats, positions are compared as exactly as both keep them. Exit status: 0 where
+/// everything that both have is equal, 1 where something differs, 2 on trouble.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
