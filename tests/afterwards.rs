@@ -129,7 +129,7 @@ fn every_format_is_compared_and_drawn() {
         serde_json::from_slice::<Value>(&output.unwrap().stdout).unwrap()
     };
     run("npy", "npy", &[]);
-    run("other", "ply", &["--set", "events[0].set.gravity=[3.001,-9]"]);
+    run("other", "ply", &["--set", "events[0].set.gravity=[60,-9]"]);
     for format in ["ply", "vtk", "bgeo"] {
         run(format, format, &[]);
         let same = diff("npy", format);
@@ -145,7 +145,7 @@ fn every_format_is_compared_and_drawn() {
             columns.iter().all(|column| expected.contains(column)),
             "{format}: {columns:?}"
         );
-        for column in ["position", "velocity", "pressure"] {
+        for column in ["position", "velocity", "density"] {
             assert!(columns.contains(column), "{format}: {columns:?}");
         }
 
@@ -160,17 +160,12 @@ fn every_format_is_compared_and_drawn() {
         );
     }
     fs::write(place.path("ply/particles_000003.ply"), "ply\n").unwrap();
-    for command in [
-        &["diff", "ply", "npy"][..],
-        &["render", "--from", "ply", "--force"],
-    ] {
-        let mut command = place.sliceflow(&command);
-        let told = place.told(&mut command, 2);
-        assert!(
-            told.contains("particles_000003.ply") && told.contains("remove it"),
-            "{told}"
-        );
-    }
+    let render = ["render", "--from", "ply", "--force", "--out", "ply_render"];
+    let told = place.told(&mut place.sliceflow(&render), 2);
+    assert!(
+        told.contains("particles_000003.ply") && told.contains("remove it"),
+        "{told}"
+    );
 }
 
 #[test]
