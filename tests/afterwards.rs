@@ -129,7 +129,7 @@ fn every_format_is_compared_and_drawn() {
         serde_json::from_slice::<Value>(&output.unwrap().stdout).unwrap()
     };
     run("npy", "npy", &[]);
-    run("other", "ply", &["--set", "events[0].set.gravity=[60,-9]"]);
+    run("other", "ply", &["--set", "events[0].set.gravity=[30,-9]"]);
     for format in ["ply", "vtk", "bgeo"] {
         run(format, format, &[]);
         let same = diff("npy", format);
