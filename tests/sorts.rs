@@ -289,7 +289,7 @@ fn check_scan(voxels: usize, groups: Option<u32>) {
     bench.write("grid", &[bench.plan.grid]);
     let mut rng = ChaCha8Rng::seed_from_u64(voxels as u64);
     let counts: Vec<u32> = (0..voxels + 2).map(|_| rng.random_range(0..5)).collect();
-    bench.write("voxel_count", &counts);
+    bench.write("voxel_start", &counts);
     bench.run(1, |pass| pass.shader == "storage/sorted/scan_voxels");
     let before = |sum: &mut u32, count: &u32| {
         *sum += count;
@@ -298,11 +298,6 @@ fn check_scan(voxels: usize, groups: Option<u32>) {
     let expected: Vec<u32> = counts.iter().scan(0, before).collect();
     let found: Vec<u32> = bench.read("voxel_start", voxels + 2);
     assert!(found == expected, "{voxels} voxels: sums");
-    let left: Vec<u32> = bench.read("voxel_count", voxels + 2);
-    assert!(
-        left.iter().all(|&count| count == 0),
-        "{voxels} voxels: counts are left"
-    );
 }
 
 #[test]

@@ -64,7 +64,7 @@ fn place_rows(@builtin(local_invocation_index) thread: u32) {
     }
     if thread == 0u {
         var total = 0u;
-        if search_state.halted == 0u && search_state.searching != 0u {
+        if search_state.halted == 0u {
             search_state.rows = rows;
             total = select(0u, rows, fits(rows, grid.row_capacity));
         }
@@ -148,7 +148,7 @@ fn build_rows(@builtin(local_invocation_index) thread: u32) {
     if thread == 0u {
 #if bitmap
         var total = 0u;
-        if search_state.halted == 0u && search_state.searching != 0u {
+        if search_state.halted == 0u {
             search_state.words = sum.total;
             total = select(0u, sum.total, fits(sum.total, grid.word_capacity));
         }

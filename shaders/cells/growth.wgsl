@@ -9,7 +9,6 @@ struct SearchState {
     words: u32,
     quarantined: u32, // particles that the search does not follow
     quarantined_so_far: atomic<u32>, // the same while they are counted
-    searching: u32, // zero: the grid of an earlier search serves this step
     longest_list: u32, // of neighbors
 }
 
@@ -21,8 +20,8 @@ const DISPATCH_PARTICLES: u32 = 0u;
 const DISPATCH_VOXELS: u32 = 1u;
 const DISPATCH_SCAN: u32 = 2u;
 const DISPATCH_SEARCHED: u32 = 4u;
-const DISPATCH_SEARCHED_ONCE: u32 = 5u;
-const DISPATCH_KEPT: u32 = 6u;
+const DISPATCH_KEPT: u32 = 5u;
+const DISPATCH_MOVING: u32 = 6u;
 const DISPATCHES: u32 = 7u;
 
 fn set_groups(which: u32, groups: u32) {
@@ -44,7 +43,7 @@ fn fits(needed: u32, capacity: u32) -> bool {
 
 // One thread, when the number of voxels is known. Tells whether there is room for them.
 fn set_voxels(voxels: u32) -> bool {
-    if search_state.halted != 0u || search_state.searching == 0u {
+    if search_state.halted != 0u {
         return false;
     }
     search_state.voxels = voxels;

@@ -73,24 +73,30 @@ pub enum Items {
     SearchedOnce,
     /// One a particle, when the lists of an earlier search serve.
     KeptParticles,
+    /// One a particle, when lists serve and steps are left to do.
+    MovingParticles,
     /// A number known beforehand, come what may.
     Fixed(u32),
 }
 
-/// Entries of the buffer `dispatch`: one for each kind of [`Items`] but the last.
+/// Entries of the buffer `dispatch`.
 pub const DISPATCHES: u64 = 7;
 
 impl Items {
-    /// Which entry of `dispatch` has the number of workgroups.
-    pub fn dispatch_entry(self) -> Option<u64> {
+    /// Which buffer, and which of its entries, has the number of workgroups; `None` for a fixed number.
+    ///
+    /// A pass cannot be dispatched from the buffer that it writes, so what decides about `dispatch` while a search is
+    /// under way has a buffer of its own.
+    pub fn dispatch_entry(self) -> Option<(&'static str, u64)> {
         match self {
-            Self::Particles => Some(0),
-            Self::Voxels => Some(1),
-            Self::VoxelBlocks => Some(2),
-            Self::Once => Some(3),
-            Self::SearchedParticles => Some(4),
-            Self::SearchedOnce => Some(5),
-            Self::KeptParticles => Some(6),
+            Self::Particles => Some(("dispatch", 0)),
+            Self::Voxels => Some(("dispatch", 1)),
+            Self::VoxelBlocks => Some(("dispatch", 2)),
+            Self::Once => Some(("dispatch", 3)),
+            Self::SearchedParticles => Some(("dispatch", 4)),
+            Self::KeptParticles => Some(("dispatch", 5)),
+            Self::MovingParticles => Some(("dispatch", 6)),
+            Self::SearchedOnce => Some(("search_dispatch", 0)),
             Self::Fixed(_) => None,
         }
     }

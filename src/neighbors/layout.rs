@@ -13,8 +13,6 @@ shared_struct! {
         /// Particles that the search does not follow.
         pub quarantined: u32,
         pub quarantined_so_far: u32,
-        /// Zero: the grid of an earlier search serves this step.
-        pub searching: u32,
         pub longest_list: u32,
     }
 }
@@ -28,7 +26,6 @@ impl SearchState {
         words: 0,
         quarantined: 0,
         quarantined_so_far: 0,
-        searching: 1,
         longest_list: 0,
     };
 }
@@ -43,5 +40,7 @@ shared_struct! {
         pub searches: u32,
         /// Of the clock when the run began or went on.
         pub first_step: u32,
+        /// Of the clock when the device stops and waits for the host.
+        pub last_step: u32,
     }
 }

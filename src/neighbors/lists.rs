@@ -7,6 +7,9 @@ use super::layout::ListState;
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::scene::{Dimensions, Scene};
 
+/// Shader of the pass that counts a step; with lists it also decides whether to search.
+const CLOCK: &str = "physics/advance_clock";
+
 /// Whether the scene asks for lists.
 pub fn wanted(scene: &Scene) -> bool {
     scene.neighbors.skin > 0.0
@@ -55,19 +58,13 @@ pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
             "whether the lists still serve",
         ),
     ]);
-    for pass in &mut search.passes {
-        pass.items = match pass.items {
-            Items::Particles => Items::SearchedParticles,
-            Items::Once => Items::SearchedOnce,
-            other => other,
-        };
-    }
-    search.before.push(PassPlan::new(
-        "storage/lists/decide",
-        "decide_search",
-        Items::Fixed(1),
-        "whether a particle has moved by half the skin",
+    search.buffers.push(BufferPlan::indirect(
+        "search_dispatch",
+        1,
+        16,
+        "a workgroup for the passes that lay out the grid, when there is a search",
     ));
+    search.passes = when(&search.passes, Items::SearchedParticles);
     search.passes.extend([
         PassPlan::new(
             "storage/lists/build",
@@ -78,14 +75,47 @@ pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
         PassPlan::new(
             "storage/lists/check",
             "check_lists",
-            Items::Fixed(1),
+            Items::SearchedOnce,
             "whether the lists had room",
         ),
     ]);
-    search.otherwise.push(PassPlan::new(
+}
+
+/// The same passes, with threads over particles only when `particles` says so.
+fn when(passes: &[PassPlan], particles: Items) -> Vec<PassPlan> {
+    let pass = |pass: &PassPlan| PassPlan {
+        items: match (pass.items, particles) {
+            (Items::Particles, _) => particles,
+            (Items::Once | Items::Fixed(1), Items::SearchedParticles) => Items::SearchedOnce,
+            (other, _) => other,
+        },
+        ..pass.clone()
+    };
+    passes.iter().map(pass).collect()
+}
+
+/// The passes of a search and those of a step. The host records several steps and then one search; the device makes
+/// steps until the lists no longer serve, leaves the rest of them out, and searches (`storage/lists/decide.wgsl`).
+pub fn phases(search: &Search, before: &[PassPlan], after: &[PassPlan]) -> [Vec<PassPlan>; 2] {
+    let mut searching = search.passes.clone();
+    searching.extend(when(after, Items::SearchedParticles));
+    searching.push(PassPlan::new(
+        "storage/lists/resume",
+        "resume_steps",
+        Items::Fixed(1),
+        "steps go on with the new lists",
+    ));
+    let mut step = when(before, Items::MovingParticles);
+    for pass in step.iter_mut().filter(|pass| pass.shader == CLOCK) {
+        // It decides what is dispatched, so it cannot be dispatched from that buffer.
+        pass.items = Items::Fixed(1);
+    }
+    step.push(PassPlan::new(
         "storage/lists/keep",
         "keep_particles",
         Items::KeptParticles,
         "particles keep their places while their lists serve",
     ));
+    step.extend(when(after, Items::KeptParticles));
+    [searching, step]
 }

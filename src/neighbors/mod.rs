@@ -37,10 +37,6 @@ pub struct Search {
     pub grid: Grid,
     pub buffers: Vec<BufferPlan>,
     pub passes: Vec<PassPlan>,
-    /// Before `passes` in a step, but not where particles come: whether to search.
-    pub before: Vec<PassPlan>,
-    /// In a step, instead of `passes` when there is no search.
-    pub otherwise: Vec<PassPlan>,
     /// Flags of the variant that the addressing and the storage need.
     flags: Vec<&'static str>,
     /// Constants of the variant that the storage needs.
@@ -177,8 +173,6 @@ impl Search {
                 ),
             ],
             passes: Vec::new(),
-            before: Vec::new(),
-            otherwise: Vec::new(),
             flags: Vec::new(),
             constants: Vec::new(),
             notes: Vec::new(),

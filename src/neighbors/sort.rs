@@ -4,7 +4,7 @@
 //! Sorting once more what the last search left does no harm, so the passes in between run a fixed number of threads.
 
 use super::addressing::{self, RoomRule};
-use super::storage::{scan, voxel_starts};
+use super::storage::{clear_voxels, scan, voxel_starts};
 use super::{Search, room};
 use crate::gpu::compose::{SCAN_ITEMS, SCAN_THREADS};
 use crate::gpu::{BufferPlan, Items, PassPlan};
@@ -43,6 +43,7 @@ fn note_order(search: &mut Search, neighbors: &Neighbors, name: &str) {
 
 /// The pass that puts particles into sorted order, and those behind it.
 fn rearrange(search: &mut Search, build: &str, index: Option<u32>) {
+    clear_voxels(search);
     search.passes.push(PassPlan {
         index,
         ..PassPlan::new(

@@ -71,14 +71,27 @@ pub(super) fn scan(search: &mut Search, shader: &str, items: u64, how: [Items; 2
     ]);
 }
 
-/// Adds the prefix sum that turns `voxel_count` into `voxel_start`, for storages in voxel order.
-pub(super) fn voxel_starts(search: &mut Search) {
+/// Adds `voxel_start` with the pass that clears it, for storages in voxel order.
+pub(super) fn clear_voxels(search: &mut Search) {
     // The quarantine behind the voxels, and one entry more for the end.
     let items = u64::from(search.grid.capacity) + 2;
-    search.buffers.extend([
-        BufferPlan::storage("voxel_count", items, 4, "particles that fell into each voxel"),
-        BufferPlan::storage("voxel_start", items, 4, "first particle of each voxel"),
-    ]);
+    search.buffers.push(BufferPlan::storage(
+        "voxel_start",
+        items,
+        4,
+        "first particle of each voxel; before, how many it has",
+    ));
+    search.passes.push(PassPlan::new(
+        "storage/sorted/clear_voxels",
+        "clear_voxels",
+        Items::VoxelBlocks,
+        "no voxel has particles yet",
+    ));
+}
+
+/// Adds the prefix sum that turns counts in `voxel_start` into first particles.
+pub(super) fn voxel_starts(search: &mut Search) {
+    let items = u64::from(search.grid.capacity) + 2;
     let how = [Items::VoxelBlocks, Items::Once];
     scan(search, "storage/sorted/scan_voxels", items, how, "voxels");
 }
@@ -87,8 +100,11 @@ fn counting(search: &mut Search, particles: u32, neighbors: &Neighbors) {
     let particles = u64::from(particles);
     let build = "storage/counting/build";
     let pass = |entry, why| PassPlan::new(build, entry, Items::Particles, why);
-    search.passes.push(pass(
+    clear_voxels(search);
+    search.passes.push(PassPlan::new(
+        "storage/counting/count",
         "count_voxels",
+        Items::Particles,
         "voxel of each particle; particles of each voxel",
     ));
     voxel_starts(search);
@@ -138,7 +154,7 @@ fn pool(search: &mut Search, _: u32, neighbors: &Neighbors) {
     ]);
     let build = "storage/pool/build";
     search.passes.extend([
-        PassPlan::new(build, "clear_voxels", Items::Voxels, "empties the pool"),
+        PassPlan::new(build, "clear_voxels", Items::VoxelBlocks, "empties the pool"),
         PassPlan::new(
             build,
             "insert_particles",

@@ -37,7 +37,7 @@ pub struct Wanted {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Phase {
-    /// When particles come or parameters change.
+    /// When particles come; with neighbor lists, also when these no longer serve.
     Start,
     /// Every step.
     Step,
@@ -126,6 +126,14 @@ impl Plan {
         let search = neighbors::plan(scene, grid, &mut variant);
         let solver = dem::plan(scene, &obstacles, &columns, wanted.statistics, &mut variant);
 
+        let [start, step] = if neighbors::lists::wanted(scene) {
+            neighbors::lists::phases(&search, &solver.before_search, &solver.after_search)
+        } else {
+            let start = [&search.passes[..], &solver.after_search].concat();
+            let step = [&solver.before_search[..], &start].concat();
+            [start, step]
+        };
+
         let mut buffers = state_buffers(scene);
         buffers.extend(search.buffers);
         buffers.extend(solver.buffers);
@@ -136,14 +144,8 @@ impl Plan {
                 pass: pass.clone(),
             }
         };
-        let mut passes = Vec::new();
-        passes.extend(search.passes.iter().map(row(Phase::Start)));
-        passes.extend(solver.after_search.iter().map(row(Phase::Start)));
-        passes.extend(solver.before_search.iter().map(row(Phase::Step)));
-        passes.extend(search.before.iter().map(row(Phase::Step)));
-        passes.extend(search.passes.iter().map(row(Phase::Step)));
-        passes.extend(search.otherwise.iter().map(row(Phase::Step)));
-        passes.extend(solver.after_search.iter().map(row(Phase::Step)));
+        let mut passes: Vec<PassRow> = start.iter().map(row(Phase::Start)).collect();
+        passes.extend(step.iter().map(row(Phase::Step)));
         passes.extend(solver.measure.iter().map(row(Phase::Observe)));
         if wanted.statistics {
             let (more_buffers, more_passes) = statistics(scene);
@@ -232,7 +234,10 @@ impl Plan {
     /// Most items that a pass has with `particles` particles.
     pub fn most_items(&self, items: Items, particles: u32) -> u32 {
         match items {
-            Items::Particles | Items::SearchedParticles | Items::KeptParticles => particles,
+            Items::Particles
+            | Items::SearchedParticles
+            | Items::KeptParticles
+            | Items::MovingParticles => particles,
             Items::Voxels => self.grid.capacity,
             Items::VoxelBlocks => scan_blocks(self.grid.capacity),
             Items::Once | Items::SearchedOnce => 1,
@@ -240,7 +245,7 @@ impl Plan {
         }
     }
 
-    /// The buffer `dispatch` for so many particles that are searched anew.
+    /// The buffer `dispatch` for so many particles that are searched anew, before any step.
     ///
     /// Rows of x, y, z, and the groups that fit in one dimension.
     pub fn dispatch(&self, particles: u32, limits: &Limits) -> [[u32; 4]; DISPATCHES as usize] {
@@ -251,7 +256,7 @@ impl Plan {
             scan_blocks(voxels),
             1,
             particles.div_ceil(GROUP_SIZE),
-            1,
+            0,
             0,
         ];
         groups.map(|groups| {
@@ -343,8 +348,8 @@ fn pass_indices(passes: &[PassRow]) -> Option<BufferPlan> {
 
 /// Buffers that grow with the number of voxels; the others grow with the number of particles.
 const VOXEL_BUFFERS: &[&str] = &[
-    "voxel_count",
     "voxel_start",
+    "voxel_count",
     "index_pool",
     "block_sum",
     "row_bounds",

@@ -16,39 +16,51 @@ use crate::scene::Dimensions;
 impl Simulation {
     /// Looks whether the last search had room, and makes room until every submitted step is done.
     pub(super) fn settle(&mut self) -> Result<()> {
+        let listed = self.buffers.contains("list_state");
         let follows = self.buffers.contains("search_state") && self.scene.domain.is_open();
-        while follows || neighbors::can_grow(&self.scene, &self.plan.grid) {
+        if !listed && !follows && !neighbors::can_grow(&self.scene, &self.plan.grid) {
+            return Ok(());
+        }
+        // Recorded steps are left out where lists stop serving, and where a search halts.
+        let mut left_out = listed;
+        loop {
             let state = self.search_state()?;
+            if state.halted != 0 {
+                self.grow(Room {
+                    voxels: state.voxels,
+                    rows: state.rows,
+                    words: state.words,
+                    list: state.longest_list,
+                })?;
+                // The particles have moved already; what halted is the search behind that.
+                self.search()?;
+                left_out = true;
+                continue;
+            }
             self.quarantined = state.quarantined;
-            if self.buffers.contains("list_state") {
-                let lists = self.buffers.get("list_state", "(host)")?;
-                let lists: Vec<ListState> = readback::read(&self.gpu, lists, 1)?;
-                self.searches[0] = lists[0].searches;
+            if listed {
+                self.searches[0] = self.read_one::<ListState>("list_state")?.searches;
             }
-            if state.halted == 0 {
-                break;
+            if !left_out {
+                return Ok(());
             }
-            self.grow(Room {
-                voxels: state.voxels,
-                rows: state.rows,
-                words: state.words,
-                list: state.longest_list,
-            })?;
-            // The particles have moved already; what halted is the search behind that.
-            self.search()?;
-            let clock = self.buffers.get("clock", "(host)")?;
-            let clock: Vec<Clock> = readback::read(&self.gpu, clock, 1)?;
-            let missing = self.submitted - u64::from(clock[0].step);
+            let missing = self.submitted - u64::from(self.read_one::<Clock>("clock")?.step);
+            if missing == 0 {
+                return Ok(());
+            }
             self.submitted -= missing;
             self.submit_steps(missing)?;
         }
-        Ok(())
     }
 
     fn search_state(&self) -> Result<SearchState> {
-        let buffer = self.buffers.get("search_state", "(host)")?;
-        let state: Vec<SearchState> = readback::read(&self.gpu, buffer, 1)?;
-        Ok(state[0])
+        self.read_one("search_state")
+    }
+
+    /// What stands at the beginning of a buffer; waits for the device.
+    fn read_one<T: bytemuck::Pod>(&self, name: &str) -> Result<T> {
+        let buffer = self.buffers.get(name, "(host)")?;
+        Ok(readback::read(&self.gpu, buffer, 1)?[0])
     }
 
     /// Makes the grid's buffers as large as needed, with the scene's margin where the adapter allows it.

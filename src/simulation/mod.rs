@@ -5,6 +5,7 @@ mod growth;
 mod neighbor_lists;
 mod particles;
 pub mod passes;
+mod rounds;
 mod segments;
 pub mod state;
 
@@ -62,6 +63,8 @@ pub struct Simulation {
     growths: u32,
     /// Steps that searched, as the device counts them, now and when the last frame was sent.
     searches: [u32; 2],
+    /// Steps that lists have served of late, on average.
+    served: f64,
     /// Particles that the last search did not follow.
     quarantined: u32,
     /// Frame and steps that a restored state began with.
@@ -110,6 +113,7 @@ impl Simulation {
             submitted: 0,
             growths: 0,
             searches: [0; 2],
+            served: rounds::USUALLY_SERVED,
             quarantined: 0,
             restored: (0, 0),
             scene: scene.clone(),
@@ -297,14 +301,10 @@ impl Simulation {
             self.buffers
                 .write(&self.gpu, "search_state", 0, &[SearchState::BEFORE])?;
         }
-        let mut encoder = self.encoder("search");
-        let mut compute = encoder.begin_compute_pass(&Default::default());
-        for step in &self.passes.start {
-            self.encode(step, &mut compute)?;
+        if self.buffers.contains("search_dispatch") {
+            self.buffers.write(&self.gpu, "search_dispatch", 0, &[[1u32; 4]])?;
         }
-        drop(compute);
-        self.gpu.queue.submit([encoder.finish()]);
-        Ok(())
+        self.submit(&[(&self.passes.start, 1)])
     }
 
     /// Runs steps; a frame's last one is timed pass by pass where times are wanted.
@@ -312,27 +312,16 @@ impl Simulation {
         if self.count == 0 {
             return Ok(());
         }
-        let timed = match (ends_frame && self.timer.is_some(), lists::wanted(&self.scene)) {
-            (false, _) => 0,
-            (true, false) => 1,
-            // The last one searches; the one before most likely does not.
-            (true, true) => 2.min(steps),
-        };
-        self.submit_steps(u64::from(steps - timed))?;
-        self.settle()?;
-        let mut kept = None;
-        for _ in 0..timed {
-            self.submitted += 1;
-            let times = self.time(&self.passes.step)?;
-            self.settle()?;
-            kept = Some(std::mem::replace(&mut self.pass_ms, times));
+        let timed = ends_frame && self.timer.is_some();
+        if lists::wanted(&self.scene) {
+            return self.run_listed_steps(steps, timed);
         }
-        if let (2, Some(kept)) = (timed, kept) {
-            let share = f64::from(self.searches[0].wrapping_sub(self.searches[1]))
-                / f64::from(self.scene.time.steps_per_frame);
-            for ((_, ms), (_, kept_ms)) in self.pass_ms.iter_mut().zip(&kept) {
-                *ms = share * *ms + (1.0 - share) * kept_ms;
-            }
+        self.submit_steps(u64::from(steps - u32::from(timed)))?;
+        self.settle()?;
+        if timed {
+            self.submitted += 1;
+            self.pass_ms = self.time(&self.passes.step)?;
+            self.settle()?;
         }
         Ok(())
     }
@@ -350,22 +339,34 @@ impl Simulation {
         }
     }
 
+    /// Has the device make so many steps more, or with lists nearly as many ([`Simulation::settle`] makes the others).
     fn submit_steps(&mut self, steps: u64) -> Result<()> {
         self.submitted += steps;
+        if lists::wanted(&self.scene) {
+            return self.submit_rounds(steps);
+        }
         let mut left = steps;
         while left > 0 {
             let now = left.min(STEPS_PER_SUBMISSION);
             left -= now;
-            let mut encoder = self.encoder("steps");
-            let mut compute = encoder.begin_compute_pass(&Default::default());
-            for _ in 0..now {
-                for step in &self.passes.step {
+            self.submit(&[(&self.passes.step, now)])?;
+        }
+        Ok(())
+    }
+
+    /// Records passes, each sequence so many times, and submits them.
+    fn submit(&self, sequences: &[(&[Step], u64)]) -> Result<()> {
+        let mut encoder = self.encoder("steps");
+        let mut compute = encoder.begin_compute_pass(&Default::default());
+        for (steps, times) in sequences {
+            for _ in 0..*times {
+                for step in *steps {
                     self.encode(step, &mut compute)?;
                 }
             }
-            drop(compute);
-            self.gpu.queue.submit([encoder.finish()]);
         }
+        drop(compute);
+        self.gpu.queue.submit([encoder.finish()]);
         Ok(())
     }
 

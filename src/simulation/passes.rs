@@ -19,9 +19,9 @@ pub struct Step {
 impl Step {
     pub fn groups<'a>(&self, buffers: &'a Buffers) -> Result<Groups<'a>> {
         Ok(match (self.items, self.items.dispatch_entry()) {
-            (_, Some(entry)) => Groups::From(buffers.get("dispatch", "(host)")?, 16 * entry),
+            (_, Some((buffer, entry))) => Groups::From(buffers.get(buffer, "(host)")?, 16 * entry),
             (Items::Fixed(count), _) => Groups::For(count),
-            _ => unreachable!("only a fixed number is not in `dispatch`"),
+            _ => unreachable!("only a fixed number is in no buffer"),
         })
     }
 }

@@ -1,32 +1,17 @@
-// Builds storage `counting`: count, (prefix sum: sorted/scan_voxels.wgsl,) scatter. Where runs have to be repeatable,
-// particles then take a canonical order inside each voxel, so that two runs sum in the same order whatever order the
+// Ends storage `counting`, behind count.wgsl and the prefix sum (sorted/scan_voxels.wgsl): scatter. Where runs have to be
+// repeatable, particles take a canonical order inside each voxel, so that two runs sum in the same order whatever order the
 // atomics had.
 #import common/thread
 #import common/parameters
 #import storage/place
-#import <addressing>
 
-var<storage, read_write> voxel_count: array<atomic<u32>>;
 var<storage, read> voxel_start: array<u32>;
-
-// Voxel of each particle, and how many of the voxel's particles came before it to the counter.
-var<storage, read_write> particle_voxel: array<u32>;
-var<storage, read_write> arrival: array<u32>;
+var<storage, read> particle_voxel: array<u32>;
+var<storage, read> arrival: array<u32>;
 #if deterministic
 // Particles in voxel order, inside a voxel in order of arrival.
 var<storage, read_write> arrived: array<u32>;
 #end
-
-@compute @workgroup_size(GROUP_SIZE)
-fn count_voxels(thread: Thread) {
-    let i = item_index(thread);
-    if i >= parameters.particle_count {
-        return;
-    }
-    let voxel = address(voxel_of(unpack(next_position[i])));
-    particle_voxel[i] = voxel;
-    arrival[i] = atomicAdd(&voxel_count[voxel], 1u);
-}
 
 #if deterministic
 @compute @workgroup_size(GROUP_SIZE)

@@ -7,7 +7,7 @@
 
 @compute @workgroup_size(1)
 fn check_lists() {
-    if search_state.halted != 0u || search_state.searching == 0u {
+    if search_state.halted != 0u {
         return;
     }
     search_state.longest_list = atomicLoad(&list_state.longest);

@@ -21,21 +21,22 @@ var<storage, read_write> index_pool: array<u32>;
 #end
 var<storage, read_write> overflow: Overflow;
 
-@compute @workgroup_size(GROUP_SIZE)
+// A workgroup empties a block of voxels.
+@compute @workgroup_size(SCAN_THREADS)
 fn clear_voxels(thread: Thread) {
-    let voxel = item_index(thread);
-    if voxel == 0u {
+    let begin = group_index(thread) * SCAN_THREADS * SCAN_ITEMS;
+    let end = min(begin + SCAN_THREADS * SCAN_ITEMS, voxel_total());
+    if begin + thread.local_index == 0u {
         atomicStore(&overflow.now, 0u);
     }
-    if voxel >= voxel_total() {
-        return;
-    }
-    atomicStore(&voxel_count[voxel], 0u);
+    for (var voxel = begin + thread.local_index; voxel < end; voxel += SCAN_THREADS) {
+        atomicStore(&voxel_count[voxel], 0u);
 #if deterministic
-    for (var slot = voxel * SLOTS; slot < (voxel + 1u) * SLOTS; slot++) {
-        atomicStore(&index_pool[slot], NOBODY);
-    }
+        for (var slot = voxel * SLOTS; slot < (voxel + 1u) * SLOTS; slot++) {
+            atomicStore(&index_pool[slot], NOBODY);
+        }
 #end
+    }
 }
 
 @compute @workgroup_size(GROUP_SIZE)

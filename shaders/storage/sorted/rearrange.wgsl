@@ -5,7 +5,8 @@
 #import common/parameters
 #import storage/place
 
-var<storage, read_write> voxel_count: array<atomic<u32>>;
+// Of particles, until the prefix sum.
+var<storage, read_write> voxel_start: array<atomic<u32>>;
 
 // A voxel's count is the end of its run less the run's begin: its first and its last particle add their part. Where
 // Green 2012 and Rojas 2013 keep begin and end of occupied voxels, the prefix sum over the counts gives empty voxels
@@ -20,9 +21,9 @@ fn rearrange_particles(thread: Thread) {
     let last = parameters.particle_count - 1u;
     let voxel = sorted_voxel(slot);
     if slot == 0u || sorted_voxel(max(slot, 1u) - 1u) != voxel {
-        atomicSub(&voxel_count[voxel], slot);
+        atomicSub(&voxel_start[voxel], slot);
     }
     if slot == last || sorted_voxel(min(slot + 1u, last)) != voxel {
-        atomicAdd(&voxel_count[voxel], slot + 1u);
+        atomicAdd(&voxel_start[voxel], slot + 1u);
     }
 }

@@ -1,8 +1,8 @@
-// Prefix sum of the voxels' particle counts: the first particle of each voxel, empty ones included.
+// Prefix sum of the voxels' particle counts, in place: the first particle of each voxel, empty ones included.
 #import storage/scan
 #import <addressing>
 
-var<storage, read_write> voxel_count: array<u32>;
+// Counts before, first particles after.
 var<storage, read_write> voxel_start: array<u32>;
 
 // Behind the voxels stands the quarantine, and one entry more: its count is zero, and its start is the particle count.
@@ -11,11 +11,9 @@ fn scan_items() -> u32 {
 }
 
 fn scan_value(voxel: u32) -> u32 {
-    return voxel_count[voxel];
+    return voxel_start[voxel];
 }
 
-// Leaves the counts zero for the next search.
 fn scan_result(voxel: u32, before: u32) {
     voxel_start[voxel] = before;
-    voxel_count[voxel] = 0u;
 }

@@ -69,8 +69,6 @@ impl Allocation {
             grid: Grid::default().with_room(room),
             buffers: Vec::new(),
             passes: Vec::new(),
-            before: Vec::new(),
-            otherwise: Vec::new(),
             flags: Vec::new(),
             constants: Vec::new(),
             notes: Vec::new(),

@@ -1,0 +1,72 @@
+//! Steps with neighbor lists. The host does not know when lists stop serving, and asking would stall the device; so it
+//! records rounds of several steps and one search. The device leaves out what a round has too many of
+//! (`shaders/storage/lists/decide.wgsl`), so how long rounds are changes no bit.
+
+use super::{STEPS_PER_SUBMISSION, Simulation};
+use crate::error::Result;
+
+/// Steps that lists serve before anything is known.
+pub(super) const USUALLY_SERVED: f64 = 8.0;
+/// Rounds have room for so many times the steps that lists serve on average: a step that is left out is cheaper than a
+/// search that is.
+const ROOM: f64 = 1.25;
+
+/// Entry of `dispatch`: [`crate::gpu::Items::MovingParticles`].
+const MOVING: usize = 6;
+/// Field of [`crate::neighbors::layout::ListState`].
+const LAST_STEP: usize = 4;
+
+impl Simulation {
+    /// Runs so many steps to their end; where they are timed, the last two pass by pass.
+    pub(super) fn run_listed_steps(&mut self, steps: u32, timed: bool) -> Result<()> {
+        let before = self.searches[0];
+        let timed = if timed { 2.min(steps) } else { 0 };
+        self.submit_steps(u64::from(steps - timed))?;
+        self.settle()?;
+        let mut times = Vec::new();
+        for _ in 0..timed {
+            self.submitted += 1;
+            self.begin_steps()?;
+            let (step, search) = (self.time(&self.passes.step)?, self.time(&self.passes.start)?);
+            self.settle()?;
+            times.push((step, search));
+        }
+        let searches = self.searches[0].wrapping_sub(before).max(1);
+        self.served = f64::from(steps) / f64::from(searches);
+        // The last step searches; the one before most likely does not.
+        if let (Some((kept, _)), Some((step, search))) = (times.first(), times.last()) {
+            let share = 1.0 / self.served;
+            let mixed = step.iter().zip(kept).map(|((label, ms), (_, kept_ms))| {
+                (label.clone(), share * ms + (1.0 - share) * kept_ms)
+            });
+            let search = search.iter().map(|(label, ms)| (label.clone(), share * ms));
+            self.pass_ms = mixed.chain(search).collect();
+        }
+        Ok(())
+    }
+
+    /// Rounds that most likely make so many steps.
+    pub(super) fn submit_rounds(&mut self, steps: u64) -> Result<()> {
+        if steps == 0 {
+            return Ok(());
+        }
+        self.begin_steps()?;
+        let round = ((ROOM * self.served).ceil() as u64).min(STEPS_PER_SUBMISSION).min(steps);
+        let mut rounds = (steps as f64 / self.served).ceil() as u64;
+        while rounds > 0 {
+            let now = rounds.min((STEPS_PER_SUBMISSION / round).max(1));
+            rounds -= now;
+            let one = [(&self.passes.step[..], round), (&self.passes.start[..], 1)];
+            self.submit(&one.repeat(now as usize))?;
+        }
+        Ok(())
+    }
+
+    /// Lets the device step until it has made all steps that were submitted.
+    fn begin_steps(&self) -> Result<()> {
+        let (gpu, buffers) = (&self.gpu, &self.buffers);
+        buffers.write(gpu, "list_state", LAST_STEP, &[self.submitted as u32])?;
+        let everyone = self.plan.dispatch(self.count, &gpu.limits)[0];
+        buffers.write(gpu, "dispatch", MOVING, &[everyone])
+    }
+}
