@@ -22,7 +22,10 @@ const DISPATCH_SCAN: u32 = 2u;
 const DISPATCH_SEARCHED: u32 = 4u;
 const DISPATCH_KEPT: u32 = 5u;
 const DISPATCH_MOVING: u32 = 6u;
-const DISPATCHES: u32 = 7u;
+const DISPATCH_RETURNING: u32 = 7u;
+const DISPATCH_AWAY: u32 = 8u;
+const DISPATCH_RETURNED: u32 = 9u;
+const DISPATCHES: u32 = 10u;
 
 fn set_groups(which: u32, groups: u32) {
     let most = dispatch[which].w;

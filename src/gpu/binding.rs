@@ -48,6 +48,11 @@ impl Bindings {
         })
     }
 
+    /// Names of all that is bound.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.resources.iter().map(|resource| resource.name.as_str())
+    }
+
     pub fn pipeline_layout(&self, gpu: &Gpu) -> wgpu::PipelineLayout {
         gpu.device
             .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {

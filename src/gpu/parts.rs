@@ -71,16 +71,22 @@ pub enum Items {
     SearchedParticles,
     /// One workgroup, when particles are searched anew.
     SearchedOnce,
-    /// One a particle, when the lists of an earlier search serve.
+    /// One a particle, behind a move after which the lists of an earlier search serve.
     KeptParticles,
     /// One a particle, when lists serve and steps are left to do.
     MovingParticles,
+    /// The same, for moves from the `next_` buffers to those without ([`PassPlan::flipped`]).
+    ReturningParticles,
+    /// One a particle, when the last move left them in the `next_` buffers and their lists serve.
+    AwayParticles,
+    /// One a particle, when the last move returned them and they are searched anew.
+    ReturnedParticles,
     /// A number known beforehand, come what may.
     Fixed(u32),
 }
 
 /// Entries of the buffer `dispatch`.
-pub const DISPATCHES: u64 = 7;
+pub const DISPATCHES: u64 = 10;
 
 impl Items {
     /// Which buffer, and which of its entries, has the number of workgroups; `None` for a fixed number.
@@ -96,6 +102,9 @@ impl Items {
             Self::SearchedParticles => Some(("dispatch", 4)),
             Self::KeptParticles => Some(("dispatch", 5)),
             Self::MovingParticles => Some(("dispatch", 6)),
+            Self::ReturningParticles => Some(("dispatch", 7)),
+            Self::AwayParticles => Some(("dispatch", 8)),
+            Self::ReturnedParticles => Some(("dispatch", 9)),
             Self::SearchedOnce => Some(("search_dispatch", 0)),
             Self::Fixed(_) => None,
         }
@@ -112,6 +121,9 @@ pub struct PassPlan {
     /// Which one it is, where a pass runs several times: `pass_index` of `common/pass_index.wgsl`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub index: Option<u32>,
+    /// Whether particles' buffers and their `next_` buffers change places.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub flipped: bool,
     pub why: String,
 }
 
@@ -122,6 +134,7 @@ impl PassPlan {
             entry: entry.to_owned(),
             items,
             index: None,
+            flipped: false,
             why: why.into(),
         }
     }

@@ -45,6 +45,21 @@ impl Kernel {
         self.pass_with(gpu, buffers, &[])
     }
 
+    /// A pass in which each `name` and `next_name` that both are there have changed places.
+    pub fn flipped_pass(&self, gpu: &Gpu, buffers: &Buffers) -> Result<Pass> {
+        let mut given = Vec::new();
+        for name in self.bindings.names() {
+            let other = match name.strip_prefix("next_") {
+                Some(now) => now.to_owned(),
+                None => format!("next_{name}"),
+            };
+            if buffers.contains(&other) {
+                given.push((name, buffers.get(&other, &self.label)?.as_entire_binding()));
+            }
+        }
+        self.pass_with(gpu, buffers, &given)
+    }
+
     /// A pass whose `pass_index` is the element at `place` of the buffer of that name.
     pub fn numbered_pass(&self, gpu: &Gpu, buffers: &Buffers, place: usize) -> Result<Pass> {
         let element = wgpu::BindingResource::Buffer(wgpu::BufferBinding {

@@ -96,8 +96,25 @@ fn when(passes: &[PassPlan], particles: Items) -> Vec<PassPlan> {
 
 /// The passes of a search and those of a step. The host records several steps and then one search; the device makes
 /// steps until the lists no longer serve, leaves the rest of them out, and searches (`storage/lists/decide.wgsl`).
+///
+/// Particles keep their places meanwhile: a step moves them into the `next_` buffers and the one after it, with all
+/// passes flipped, back again.
 pub fn phases(search: &Search, before: &[PassPlan], after: &[PassPlan]) -> [Vec<PassPlan>; 2] {
-    let mut searching = search.passes.clone();
+    let copy = |items, why: &str| PassPlan::new("storage/lists/keep", "keep_particles", items, why);
+    let mut searching = vec![
+        copy(
+            Items::AwayParticles,
+            "particles back from the `next_` buffers, when their lists serve",
+        ),
+        PassPlan {
+            flipped: true,
+            ..copy(
+                Items::ReturnedParticles,
+                "particles into the `next_` buffers, when they are searched",
+            )
+        },
+    ];
+    searching.extend_from_slice(&search.passes);
     searching.extend(when(after, Items::SearchedParticles));
     searching.push(PassPlan::new(
         "storage/lists/resume",
@@ -110,12 +127,13 @@ pub fn phases(search: &Search, before: &[PassPlan], after: &[PassPlan]) -> [Vec<
         // It decides what is dispatched, so it cannot be dispatched from that buffer.
         pass.items = Items::Fixed(1);
     }
-    step.push(PassPlan::new(
-        "storage/lists/keep",
-        "keep_particles",
-        Items::KeptParticles,
-        "particles keep their places while their lists serve",
-    ));
-    step.extend(when(after, Items::KeptParticles));
+    step.extend(
+        when(after, Items::KeptParticles)
+            .into_iter()
+            .map(|pass| PassPlan {
+                flipped: true,
+                ..pass
+            }),
+    );
     [searching, step]
 }

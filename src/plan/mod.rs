@@ -237,7 +237,10 @@ impl Plan {
             Items::Particles
             | Items::SearchedParticles
             | Items::KeptParticles
-            | Items::MovingParticles => particles,
+            | Items::MovingParticles
+            | Items::ReturningParticles
+            | Items::AwayParticles
+            | Items::ReturnedParticles => particles,
             Items::Voxels => self.grid.capacity,
             Items::VoxelBlocks => scan_blocks(self.grid.capacity),
             Items::Once | Items::SearchedOnce => 1,
@@ -256,6 +259,9 @@ impl Plan {
             scan_blocks(voxels),
             1,
             particles.div_ceil(GROUP_SIZE),
+            0,
+            0,
+            0,
             0,
             0,
         ];

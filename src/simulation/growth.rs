@@ -7,7 +7,7 @@ use super::Simulation;
 use super::passes::Passes;
 use crate::error::{Error, Result};
 use crate::gpu::readback;
-use crate::neighbors::layout::{ListState, SearchState};
+use crate::neighbors::layout::SearchState;
 use crate::neighbors::{self, Grid, Room};
 use crate::physics::layout::Clock;
 use crate::plan::Plan;
@@ -38,13 +38,14 @@ impl Simulation {
                 continue;
             }
             self.quarantined = state.quarantined;
-            if listed {
-                self.searches[0] = self.read_one::<ListState>("list_state")?.searches;
-            }
             if !left_out {
                 return Ok(());
             }
-            let missing = self.submitted - u64::from(self.read_one::<Clock>("clock")?.step);
+            let step = self.read_one::<Clock>("clock")?.step;
+            if listed {
+                self.note_searches(step)?;
+            }
+            let missing = self.submitted - u64::from(step);
             if missing == 0 {
                 return Ok(());
             }
@@ -58,7 +59,7 @@ impl Simulation {
     }
 
     /// What stands at the beginning of a buffer; waits for the device.
-    fn read_one<T: bytemuck::Pod>(&self, name: &str) -> Result<T> {
+    pub(super) fn read_one<T: bytemuck::Pod>(&self, name: &str) -> Result<T> {
         let buffer = self.buffers.get(name, "(host)")?;
         Ok(readback::read(&self.gpu, buffer, 1)?[0])
     }

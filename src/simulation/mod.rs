@@ -65,6 +65,8 @@ pub struct Simulation {
     searches: [u32; 2],
     /// Steps that lists have served of late, on average.
     served: f64,
+    /// Step at which that was found.
+    last_look: u32,
     /// Particles that the last search did not follow.
     quarantined: u32,
     /// Frame and steps that a restored state began with.
@@ -114,6 +116,7 @@ impl Simulation {
             growths: 0,
             searches: [0; 2],
             served: rounds::USUALLY_SERVED,
+            last_look: 0,
             quarantined: 0,
             restored: (0, 0),
             scene: scene.clone(),
@@ -302,9 +305,10 @@ impl Simulation {
                 .write(&self.gpu, "search_state", 0, &[SearchState::BEFORE])?;
         }
         if self.buffers.contains("search_dispatch") {
-            self.buffers.write(&self.gpu, "search_dispatch", 0, &[[1u32; 4]])?;
+            self.buffers
+                .write(&self.gpu, "search_dispatch", 0, &[[1u32; 4]])?;
         }
-        self.submit(&[(&self.passes.start, 1)])
+        self.submit(&[&self.passes.start])
     }
 
     /// Runs steps; a frame's last one is timed pass by pass where times are wanted.
@@ -349,21 +353,17 @@ impl Simulation {
         while left > 0 {
             let now = left.min(STEPS_PER_SUBMISSION);
             left -= now;
-            self.submit(&[(&self.passes.step, now)])?;
+            self.submit(&vec![&self.passes.step[..]; now as usize])?;
         }
         Ok(())
     }
 
-    /// Records passes, each sequence so many times, and submits them.
-    fn submit(&self, sequences: &[(&[Step], u64)]) -> Result<()> {
+    /// Records passes and submits them.
+    fn submit(&self, sequences: &[&[Step]]) -> Result<()> {
         let mut encoder = self.encoder("steps");
         let mut compute = encoder.begin_compute_pass(&Default::default());
-        for (steps, times) in sequences {
-            for _ in 0..*times {
-                for step in *steps {
-                    self.encode(step, &mut compute)?;
-                }
-            }
+        for step in sequences.iter().copied().flatten() {
+            self.encode(step, &mut compute)?;
         }
         drop(compute);
         self.gpu.queue.submit([encoder.finish()]);

@@ -30,6 +30,8 @@ impl Step {
 pub struct Passes {
     pub start: Vec<Step>,
     pub step: Vec<Step>,
+    /// The step after it, where steps go by twos: from the `next_` buffers to those without.
+    pub step_back: Vec<Step>,
     pub observe: Vec<Step>,
 }
 
@@ -40,7 +42,7 @@ impl Passes {
             let first = place * INDEX_STRIDE as usize / size_of::<u32>();
             buffers.write(gpu, "pass_index", first, &[*index])?;
         }
-        let mut made = |phase| -> Result<Vec<Step>> {
+        let mut made = |phase, back: bool| -> Result<Vec<Step>> {
             let variant = plan.variant_of(phase);
             let step = |planned: &PassPlan| {
                 let key = (planned.shader.clone(), planned.entry.clone());
@@ -52,19 +54,27 @@ impl Passes {
                 let place = planned.index.and_then(|index| indices.binary_search(&index).ok());
                 let pass = match place {
                     Some(place) => kernel.numbered_pass(gpu, buffers, place)?,
+                    None if planned.flipped != back => kernel.flipped_pass(gpu, buffers)?,
                     None => kernel.pass(gpu, buffers)?,
                 };
-                Ok(Step {
-                    pass,
-                    items: planned.items,
-                })
+                let items = match planned.items {
+                    Items::MovingParticles if back => Items::ReturningParticles,
+                    items => items,
+                };
+                Ok(Step { pass, items })
             };
             plan.in_phase(phase).map(step).collect()
         };
+        let lists = buffers.contains("list_state");
         Ok(Self {
-            start: made(Phase::Start)?,
-            step: made(Phase::Step)?,
-            observe: made(Phase::Observe)?,
+            start: made(Phase::Start, false)?,
+            step: made(Phase::Step, false)?,
+            step_back: if lists {
+                made(Phase::Step, true)?
+            } else {
+                Vec::new()
+            },
+            observe: made(Phase::Observe, false)?,
         })
     }
 }

@@ -2,8 +2,10 @@
 //! records rounds of several steps and one search. The device leaves out what a round has too many of
 //! (`shaders/storage/lists/decide.wgsl`), so how long rounds are changes no bit.
 
+use super::passes::Step;
 use super::{STEPS_PER_SUBMISSION, Simulation};
 use crate::error::Result;
+use crate::neighbors::layout::ListState;
 
 /// Steps that lists serve before anything is known.
 pub(super) const USUALLY_SERVED: f64 = 8.0;
@@ -31,17 +33,32 @@ impl Simulation {
             self.settle()?;
             times.push((step, search));
         }
-        let searches = self.searches[0].wrapping_sub(before).max(1);
-        self.served = f64::from(steps) / f64::from(searches);
-        // The last step searches; the one before most likely does not.
-        if let (Some((kept, _)), Some((step, search))) = (times.first(), times.last()) {
-            let share = 1.0 / self.served;
-            let mixed = step.iter().zip(kept).map(|((label, ms), (_, kept_ms))| {
-                (label.clone(), share * ms + (1.0 - share) * kept_ms)
-            });
-            let search = search.iter().map(|(label, ms)| (label.clone(), share * ms));
+        // The last step searches; the one before most likely does not, and then particles are taken back.
+        if let (Some((kept, back)), Some((step, search))) = (times.first(), times.last()) {
+            let share = f64::from(self.searches[0].wrapping_sub(before)) / f64::from(steps);
+            let mixed = step
+                .iter()
+                .zip(kept)
+                .map(|((label, ms), (_, kept_ms))| (label.clone(), share * ms + (1.0 - share) * kept_ms));
+            let search = search
+                .iter()
+                .zip(back)
+                .map(|((label, ms), (_, back_ms))| (label.clone(), share * ms.max(*back_ms)));
             self.pass_ms = mixed.chain(search).collect();
         }
+        Ok(())
+    }
+
+    /// Learns how long lists served since the last time.
+    pub(super) fn note_searches(&mut self, step: u32) -> Result<()> {
+        let searches = self.read_one::<ListState>("list_state")?.searches;
+        let more = searches.wrapping_sub(self.searches[0]);
+        if more > 0 {
+            let steps = step.wrapping_sub(self.last_look);
+            self.served = (f64::from(steps) / f64::from(more)).max(1.0);
+            self.last_look = step;
+        }
+        self.searches[0] = searches;
         Ok(())
     }
 
@@ -51,12 +68,21 @@ impl Simulation {
             return Ok(());
         }
         self.begin_steps()?;
-        let round = ((ROOM * self.served).ceil() as u64).min(STEPS_PER_SUBMISSION).min(steps);
+        let most = STEPS_PER_SUBMISSION.min(steps);
+        let round = ((ROOM * self.served).ceil() as u64).min(most);
+        let mut one: Vec<&[Step]> = Vec::new();
+        for step in 0..round {
+            one.push(if step % 2 == 0 {
+                &self.passes.step
+            } else {
+                &self.passes.step_back
+            });
+        }
+        one.push(&self.passes.start);
         let mut rounds = (steps as f64 / self.served).ceil() as u64;
         while rounds > 0 {
-            let now = rounds.min((STEPS_PER_SUBMISSION / round).max(1));
+            let now = rounds.min(STEPS_PER_SUBMISSION / round);
             rounds -= now;
-            let one = [(&self.passes.step[..], round), (&self.passes.start[..], 1)];
             self.submit(&one.repeat(now as usize))?;
         }
         Ok(())

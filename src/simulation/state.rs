@@ -202,10 +202,12 @@ impl Simulation {
         }
         self.restored = (state.frame, clock.step);
         self.submitted = u64::from(clock.step);
+        self.last_look = clock.step;
         self.buffers.write(&self.gpu, "clock", 0, &[clock])?;
         if self.buffers.contains("list_state") {
             let lists = ListState {
                 first_step: clock.step,
+                last_step: clock.step,
                 ..Default::default()
             };
             self.buffers.write(&self.gpu, "list_state", 0, &[lists])?;

@@ -2,7 +2,8 @@
 // are searched in any case: pictures look at the grid, and a resumed run finds the same lists.
 //
 // The host records several steps and then a search, over and over. Once lists no longer serve, or steps end, the rest
-// of the recorded steps moves nothing; a search whose lists still serve finds nothing to do.
+// of the recorded steps moves nothing; a search whose lists still serve finds nothing to do. Recorded steps go by
+// twos: the first moves particles into the `next_` buffers, the second returns them.
 #import common/vector
 #import common/thread
 #import cells/grid
@@ -13,34 +14,42 @@
 // Arguments of an indirect dispatch: whether the passes that lay out the grid run.
 var<storage, read_write> search_dispatch: vec4u;
 
-fn nobody() -> vec4u {
-    return vec4u(0u, 0u, 0u, dispatch[DISPATCH_PARTICLES].w);
+// Has a kind of passes run over all particles, or over none.
+fn set_particles(which: u32, all: bool) {
+    let particles = dispatch[DISPATCH_PARTICLES];
+    dispatch[which] = select(vec4u(0u, 0u, 0u, particles.w), particles, all);
+}
+
+fn set_search(runs: bool) {
+    set_particles(DISPATCH_SEARCHED, runs);
+    search_dispatch = vec4u(u32(runs), 1u, 1u, 0u);
+}
+
+fn steps_are_left() -> bool {
+    return clock.step != list_state.last_step;
 }
 
 // Whether the recorded step that this pass belongs to moved particles.
 fn has_moved() -> bool {
-    if dispatch[DISPATCH_MOVING].x != 0u {
+    if (dispatch[DISPATCH_MOVING].x | dispatch[DISPATCH_RETURNING].x) != 0u {
         return true;
     }
-    dispatch[DISPATCH_KEPT] = nobody();
+    set_particles(DISPATCH_KEPT, false);
     return false;
-}
-
-// Says who moves in the next step.
-fn set_moving(lists_serve: bool) {
-    let moves = lists_serve && clock.step != list_state.last_step;
-    dispatch[DISPATCH_MOVING] = select(nobody(), dispatch[DISPATCH_PARTICLES], moves);
 }
 
 fn decide_search() {
     let due = atomicLoad(&list_state.moved) != 0u || (clock.step - list_state.first_step) % grid.frame_steps == 0u;
+    let returned = dispatch[DISPATCH_RETURNING].x != 0u;
+    let goes_on = !due && steps_are_left();
     atomicStore(&list_state.moved, 0u);
     list_state.searches += u32(due);
-    let particles = dispatch[DISPATCH_PARTICLES];
-    dispatch[DISPATCH_SEARCHED] = select(nobody(), particles, due);
-    dispatch[DISPATCH_KEPT] = select(particles, nobody(), due);
-    search_dispatch = vec4u(u32(due), 1u, 1u, 0u);
-    set_moving(!due);
+    set_search(due);
+    set_particles(DISPATCH_KEPT, !due);
+    set_particles(DISPATCH_MOVING, goes_on && returned);
+    set_particles(DISPATCH_RETURNING, goes_on && !returned);
+    set_particles(DISPATCH_AWAY, !due && !returned);
+    set_particles(DISPATCH_RETURNED, due && returned);
 #if fixed_room
     if due {
         _ = set_voxels(grid.capacity);

@@ -1,4 +1,4 @@
-// Particles keep their places in memory between two searches.
+// Takes particles to the same places in their other buffers.
 #import common/thread
 #import common/parameters
 #import storage/place

@@ -1,13 +1,15 @@
-// After a search: steps go on.
+// Behind a recorded search, whether it found something to do or not: particles are in their place, and steps go on.
 #import storage/lists/decide
 
 @compute @workgroup_size(1)
 fn resume_steps() {
-    if search_state.halted != 0u || search_dispatch.x == 0u {
+    if search_state.halted != 0u {
         return;
     }
-    search_dispatch = vec4u(0u, 1u, 1u, 0u);
-    dispatch[DISPATCH_SEARCHED] = nobody();
-    dispatch[DISPATCH_SCAN] = nobody();
-    set_moving(true);
+    set_search(false);
+    dispatch[DISPATCH_SCAN] = vec4u(0u, 0u, 0u, dispatch[DISPATCH_SCAN].w);
+    set_particles(DISPATCH_MOVING, steps_are_left());
+    set_particles(DISPATCH_RETURNING, false);
+    set_particles(DISPATCH_AWAY, false);
+    set_particles(DISPATCH_RETURNED, false);
 }
