@@ -25,19 +25,15 @@ pub fn usual_length(scene: &Scene) -> u32 {
     (touching * f64::powi(reach, dimensions)).ceil() as u32
 }
 
-/// Puts the lists behind a search, and lets the search run only when they no longer serve.
-pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
-    variant
-        .flag("lists", true)
-        .role("candidates", "storage/lists/query");
-    search_state(search);
+/// The lists' own buffers, with room for so many neighbors of each particle.
+pub fn buffers(scene: &Scene, length: u32) -> [BufferPlan; 4] {
     let particles = u64::from(scene.capacity);
     let vector = match scene.dimensions {
         Dimensions::Two => 8,
         Dimensions::Three => 16,
     };
-    let length = u64::from(search.grid.list_capacity);
-    search.buffers.extend([
+    let length = u64::from(length);
+    [
         BufferPlan::storage(
             "neighbor_list",
             particles * length,
@@ -57,7 +53,16 @@ pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
             ListState::LAYOUT.size as u64,
             "whether the lists still serve",
         ),
-    ]);
+    ]
+}
+
+/// Puts the lists behind a search, and lets the search run only when they no longer serve.
+pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
+    variant
+        .flag("lists", true)
+        .role("candidates", "storage/lists/query");
+    search_state(search);
+    search.buffers.extend(buffers(scene, search.grid.list_capacity));
     search.buffers.push(BufferPlan::indirect(
         "search_dispatch",
         1,

@@ -16,7 +16,7 @@ use crate::output::{columns_named, compose_picture};
 use crate::plan::{Plan, Wanted};
 use crate::render::Overlay;
 use crate::scene::model::View;
-use crate::scene::{Particles, Scene};
+use crate::scene::{Neighbors, Particles, Scene};
 use crate::simulation::Simulation;
 use crate::simulation::frame::{Frame, Values};
 
@@ -64,11 +64,14 @@ impl Bench {
             "A pass is timed by the device's timestamps."
         };
         page.paragraph(format!(
-            "Times are medians of {}. In each round every grid of a table has its turn (from the first to the \
+            "Times are medians of {1}. In each round every grid of a table has its turn (from the first to the \
              last, then from the last to the first), so that whatever else the machine does hits all alike. A step's \
-             time is the wall time of {} steps in one submission; construction is the sum of the search's passes, each \
-             timed alone. Single rounds on a shared machine differ by a factor of two and more: compare within a table.",
-            rounds(effort.rounds), effort.steps
+             time is the wall time of {0} steps at once, divided by their number; construction is the \
+             sum of the search's passes, each timed alone. With neighbor lists (`+lists`, skin {2}) the passes of a search \
+             count by the share of steps that search, and the last of {0} steps always does. Single rounds on a shared machine differ by a factor of two and more: compare within a table.",
+            effort.steps,
+            rounds(effort.rounds),
+            Neighbors::default().skin
         ));
         page.paragraph(clock);
         page.value(
@@ -132,6 +135,26 @@ pub fn grid_names() -> Vec<String> {
     ADDRESSINGS.iter().flat_map(|row| storages(row.name)).collect()
 }
 
+/// The grids that are measured with neighbor lists too; the first one is what scenes get that do not choose.
+pub const LISTED: [&str; 3] = [
+    "sliced-counting+lists",
+    "bitmap-counting+lists",
+    "uniform-counting+lists",
+];
+
+/// All grids, and those with lists.
+pub fn timed_names() -> Vec<String> {
+    let listed = LISTED.iter().map(|&name| name.to_owned());
+    grid_names().into_iter().chain(listed).collect()
+}
+
+/// Every addressing with a pool and with counting, and those with lists.
+pub fn main_names() -> Vec<String> {
+    let mut names = timed_names();
+    names.retain(|name| !name.ends_with("-radix") && !name.ends_with("-bitonic"));
+    names
+}
+
 /// `1 round`, `7 rounds`
 pub fn rounds(count: u32) -> String {
     if count == 1 {
@@ -182,5 +205,6 @@ mod tests {
         let names = grid_names();
         assert_eq!(names.len(), ADDRESSINGS.len() * STORAGES.len());
         assert!(names.contains(&"sliced-pool".to_owned()));
+        assert_eq!(main_names().len(), 2 * ADDRESSINGS.len() + LISTED.len());
     }
 }

@@ -16,12 +16,13 @@ use crate::scene::{Particles, Scene};
 const PAPER: [(&str, f64); 2] = [("GeForce GTX 280", 175.0), ("GeForce GTX 480", 460.0)];
 
 /// What the paper calls a way, and our name of the grid.
-const WAYS: [(&str, &str); 5] = [
+const WAYS: [(&str, &str); 6] = [
     ("atomics", "uniform-pool"),
     ("atomics, two passes (scan)", "uniform-counting"),
     ("two passes along a Z-order curve", "morton-counting"),
     ("radix sort", "uniform-radix"),
     ("radix sort along a Z-order curve", "morton-radix"),
+    ("our default: two passes, neighbor lists", "sliced-counting+lists"),
 ];
 
 struct Scale {
@@ -66,7 +67,7 @@ pub fn green(settings: &Settings) -> Result<PathBuf> {
     ));
     bench.describe(&mut page, scale.effort);
     ways(&mut page, &bench, &scale, &bed)?;
-    deterministic(&mut page);
+    deterministic(&mut page, &bench, &scale, &bed)?;
     rate(&mut page, &bench, &scale, &bed)?;
     page.finish()
 }
@@ -177,12 +178,56 @@ fn ways(page: &mut Page, bench: &Bench, scale: &Scale, bed: &Scene) -> Result<()
     })
 }
 
-fn deterministic(page: &mut Page) {
+/// Grids whose work is less with `neighbors.deterministic: false`.
+const ORDERED: [&str; 4] = [
+    "uniform-pool",
+    "uniform-counting",
+    "sliced-counting",
+    "sliced-pool",
+];
+
+fn deterministic(page: &mut Page, bench: &Bench, scale: &Scale, bed: &Scene) -> Result<()> {
     page.heading("What repeatable results cost");
     page.paragraph(
-        "Not measured: every grid brings a voxel's particles into one order before anything is summed, so that two runs \
-         give the same bytes, and this version cannot leave that out.",
+        "So that two runs give the same bytes, a voxel's particles come into one order before anything is summed. With \
+         `neighbors.deterministic: false` they keep the order in which the device's threads arrived; `radix` and \
+         `bitonic` are repeatable as they are. No lists: with them, the cost falls on the few steps that search.",
     );
+    progress("green: repeatable results");
+    let [(_, sorted), _] = orders(bed);
+    let bed = scenes::replaced(bed, sorted);
+    let mut entries = Vec::new();
+    for grid in ORDERED {
+        for name in [grid.to_owned(), format!("{grid}{}", scenes::ANY_ORDER)] {
+            let scene = scenes::with_grid(&bed, &name)?;
+            entries.push(Entry { name, scene });
+        }
+    }
+    let outcomes = bench.measure(&entries, scale.effort);
+    let mut table = Table::new([
+        "grid",
+        "construction, one order, ms",
+        "construction, any order, ms",
+        "step, one order, ms",
+        "step, any order, ms",
+        "cost of a step, %",
+    ]);
+    for (grid, pair) in ORDERED.iter().zip(outcomes.chunks_exact(2)) {
+        let [ordered, any] = [0, 1].map(|k| pair[k].as_ref().ok());
+        let cost = ordered
+            .zip(any)
+            .map(|(o, a)| 100.0 * (o.step_ms / a.step_ms - 1.0));
+        table.row([
+            Cell::text(format!("`{grid}`")),
+            Cell::maybe(ordered.map(|t| t.build_ms)),
+            Cell::maybe(any.map(|t| t.build_ms)),
+            Cell::maybe(ordered.map(|t| t.step_ms)),
+            Cell::maybe(any.map(|t| t.step_ms)),
+            Cell::maybe(cost),
+        ]);
+    }
+    page.table("deterministic", &table);
+    Ok(())
 }
 
 fn rate(page: &mut Page, bench: &Bench, scale: &Scale, bed: &Scene) -> Result<()> {

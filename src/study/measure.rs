@@ -199,7 +199,15 @@ impl Measured {
         self.simulation.set_timings(true);
         let timed = self.frame()?;
         self.simulation.set_timings(false);
+        // A sort runs its passes several times in a step.
+        let mut sums: Vec<(String, f64)> = Vec::new();
         for (label, ms) in timed.into_iter().flat_map(|frame| frame.pass_ms) {
+            match sums.iter_mut().find(|(known, _)| *known == label) {
+                Some((_, sum)) => *sum += ms,
+                None => sums.push((label, ms)),
+            }
+        }
+        for (label, ms) in sums {
             match self.passes.iter_mut().find(|(known, _)| *known == label) {
                 Some((_, times)) => times.push(ms),
                 None => self.passes.push((label, vec![ms])),

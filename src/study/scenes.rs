@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
 
 use crate::error::Result;
-use crate::scene::{Particles, Scene, load};
+use crate::scene::{Neighbors, Particles, Scene, load};
 
 /// Metres; voxels are about twice as wide.
 pub const RADIUS: f64 = 0.005;
@@ -90,12 +90,24 @@ pub fn parse(file: &Value) -> Result<Scene> {
     load::parse(&file.to_string(), &format!("{name}.json"), Path::new(""), &[])
 }
 
-/// The scene with another grid, `ADDRESSING-STORAGE`.
+/// What `+lists` and `+any-order` behind a grid's name ask for: neighbor lists with the usual skin, and no canonical
+/// order.
+pub const LISTS: &str = "+lists";
+pub const ANY_ORDER: &str = "+any-order";
+
+/// The scene with another grid, `ADDRESSING-STORAGE`, with [`LISTS`] or [`ANY_ORDER`] behind.
 pub fn with_grid(scene: &Scene, grid: &str) -> Result<Scene> {
-    let (addressing, storage) = grid.split_once('-').unwrap_or((grid, "counting"));
+    let plain = grid.trim_end_matches(LISTS).trim_end_matches(ANY_ORDER);
+    let (addressing, storage) = plain.split_once('-').unwrap_or((plain, "counting"));
     let mut file = serde_json::to_value(&scene.file).expect("a validated scene has text keys");
     file["neighbors"]["addressing"] = addressing.into();
     file["neighbors"]["storage"] = storage.into();
+    if grid.ends_with(LISTS) {
+        file["neighbors"]["skin"] = Neighbors::default().skin.into();
+    }
+    if grid.ends_with(ANY_ORDER) {
+        file["neighbors"]["deterministic"] = false.into();
+    }
     // Only the search's own choices are taken over, so that bodies need not be placed again.
     file["bodies"] = json!([{ "shape": { "kind": "sphere", "center": centre(&file), "radius": 1.5 * scene.grains.radius } }]);
     file["events"] = json!([]);
@@ -194,6 +206,14 @@ mod tests {
         assert_eq!(other.time, scene.time);
         assert_ne!(other.neighbors, scene.neighbors);
         assert!(with_grid(&scene, "cubes-pool").is_err());
+        let listed = with_grid(&scene, "rows-counting+lists").unwrap();
+        assert!(listed.neighbors.skin > 0.0 && other.neighbors.skin == 0.0);
+        assert!(
+            !with_grid(&scene, "rows-counting+any-order")
+                .unwrap()
+                .neighbors
+                .deterministic
+        );
     }
 
     #[test]

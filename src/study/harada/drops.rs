@@ -38,7 +38,12 @@ pub struct Moment {
     /// In the order of [`ADDRESSINGS`].
     voxels: Vec<u64>,
     octree_leaves: u64,
+    /// For each of [`SLIM`]: its bytes, and those of the octree's leaves ([`Memory::octree_bytes`]).
+    bytes: [(u64, [u64; 3]); 2],
 }
+
+/// The grids that are held against the octree in bytes, and their storages.
+const SLIM: [(&str, &str); 2] = [("bitmap-counting", "counting"), ("bitmap-pool", "pool")];
 
 impl Drop {
     /// The scene with a state of the drop at its start.
@@ -85,6 +90,7 @@ fn drop_block(bench: &Bench, scale: &Scale, paper: &'static Paper, k: usize) -> 
         let memory = Memory::of(&scene, &particles.position);
         let voxels = memory.voxels();
         let octree_leaves = memory.octree.leaves;
+        let bytes = SLIM.map(|(grid, storage)| (memory.bytes(grid), memory.octree_bytes(storage)));
         domain_voxels = memory.domain_voxels;
         last = State { time, particles };
         if moments.is_empty() {
@@ -98,6 +104,7 @@ fn drop_block(bench: &Bench, scale: &Scale, paper: &'static Paper, k: usize) -> 
             time,
             voxels,
             octree_leaves,
+            bytes,
         });
     })?;
     Ok(Drop {
@@ -206,6 +213,36 @@ pub fn figure_6(page: &mut Page, drop: &Drop) -> Result<()> {
         table.row([Cell::text(format!("`{}`", row.name)), Cell::number(worst(k))]);
     }
     page.table("figure_6_against_leaves", &table);
+    page.paragraph(
+        "The same in bytes, all buffers of the search. What a leaf keeps is what a voxel keeps: with `counting` the index \
+         of its first particle (4 bytes), with a pool four indices and their number (20 bytes). Leaves that keep no more \
+         than that cannot be found: they need a key of 4 bytes each (a linear octree, searched in logarithmic time) or \
+         nodes of eight indices above them. `bitmap` finds its voxels in constant time through its tables.",
+    );
+    let mut table = Table::new([
+        "grid",
+        "most bytes, as a multiple of what leaves keep",
+        "of leaves with keys",
+        "of leaves and nodes",
+        "at or below leaves with keys, always",
+    ]);
+    for (k, (grid, _)) in SLIM.iter().enumerate() {
+        let most = |which: usize| {
+            let ratios = drop.moments.iter().map(|moment| {
+                let (bytes, octree) = moment.bytes[k];
+                bytes as f64 / octree[which] as f64
+            });
+            ratios.fold(0.0, f64::max)
+        };
+        table.row([
+            Cell::text(format!("`{grid}`")),
+            Cell::number(most(0)),
+            Cell::number(most(1)),
+            Cell::number(most(2)),
+            Cell::text(if most(1) <= 1.0 { "yes" } else { "no" }),
+        ]);
+    }
+    page.table("figure_6_bytes_against_leaves", &table);
     bytes(page, drop);
     Ok(())
 }
@@ -215,7 +252,7 @@ fn bytes(page: &mut Page, drop: &Drop) {
     page.paragraph(
         "Bytes at the beginning, when the sliced grid is widest, and at the end. A grid's bytes are those of the \
          search's buffers, as large as the state needs them; `of voxels` is the part that the number of particles \
-         does not change. An octree's leaf takes what a voxel of the same storage takes; its nodes hold eight indices.",
+         does not change.",
     );
     let mut table = Table::new([
         "grid",
@@ -239,8 +276,12 @@ fn bytes(page: &mut Page, drop: &Drop) {
             ]);
         }
         for storage in ["pool", "counting"] {
-            let [leaves, nodes] = memory.octree_bytes(storage);
-            for (name, bytes) in [("leaves alone", leaves), ("with nodes", nodes)] {
+            let [leaves, keys, nodes] = memory.octree_bytes(storage);
+            for (name, bytes) in [
+                ("what leaves keep", leaves),
+                ("leaves with keys", keys),
+                ("leaves and nodes", nodes),
+            ] {
                 table.row([
                     Cell::text(format!("octree, {storage}, {name}")),
                     Cell::number(state.time),

@@ -9,7 +9,7 @@ use crate::neighbors::ADDRESSINGS;
 use crate::output::text::count;
 use crate::plan::{Plan, Wanted};
 use crate::scene::Scene;
-use crate::study::bench::{Bench, first_line, grid_names, progress, rounds};
+use crate::study::bench::{Bench, first_line, main_names, progress, rounds};
 use crate::study::measure::{Effort, Entry};
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
@@ -97,18 +97,18 @@ fn memory(page: &mut Page, scene: &Scene) {
         ]);
     }
     table.row([
-        Cell::text("octree's leaves"),
+        Cell::text("octree's leaves, in `counting` with keys"),
         Cell::count(memory.octree.leaves),
         Cell::bytes(memory.octree.leaves * PAPER_VOXEL_BYTES),
         Cell::Nothing,
-        Cell::bytes(memory.octree_bytes("counting")[0]),
+        Cell::bytes(memory.octree_bytes("counting")[1]),
     ]);
     page.table("figure_8_memory", &table);
 }
 
 /// Runs the grids that this adapter can hold.
 fn run(table: &mut Table, bench: &Bench, scene: &Scene, effort: Effort) {
-    for grid in grid_names() {
+    for grid in main_names() {
         let planned = scenes::with_grid(scene, &grid)
             .and_then(|scene| Plan::new(&scene, &bench.limits, &Wanted::default()).map(|_| scene));
         let outcome = match planned {

@@ -5,12 +5,12 @@ use glam::Vec3;
 use super::Scale;
 use super::drops::Drop;
 use super::memory::Memory;
-use super::times::of_all_grids;
+use super::times::of_grids;
 use crate::error::Result;
 use crate::output::plot::Bars;
 use crate::output::text::count;
 use crate::scene::{Particles, Scene};
-use crate::study::bench::{Bench, progress};
+use crate::study::bench::{Bench, LISTED, main_names, progress};
 use crate::study::measure::Times;
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
@@ -39,7 +39,8 @@ pub fn shapes(page: &mut Page, bench: &Bench, scale: &Scale, splash: &Drop) -> R
         "The cube of {0}³ voxels with: a grain in every voxel; the second drop when its sliced grid is widest; two balls in \
          opposite corners; a sheet one voxel thick, tilted against all axes; and a line from corner to corner. Bytes are \
          those of the search's buffers, as large as the state needs them. A query is what a step does besides \
-         construction.",
+         construction. Grids with a pool keep four particles a voxel and may overflow; with `+lists`, bytes include the \
+         lists.",
         scale.cells
     ));
     let mut scenes: Vec<(&str, Scene)> = Vec::new();
@@ -58,12 +59,13 @@ pub fn shapes(page: &mut Page, bench: &Bench, scale: &Scale, splash: &Drop) -> R
         "voxels",
         "bytes",
         "share of `uniform`",
-        "octree's leaves",
+        "octree's leaves with keys",
         "construction, ms",
         "query, ms",
         "step, ms",
         "remark",
     ]);
+    let mut ranks = Vec::new();
     let mut shares: Vec<(String, Vec<f64>)> = Vec::new();
     for (name, scene) in &scenes {
         progress(&format!(
@@ -71,9 +73,14 @@ pub fn shapes(page: &mut Page, bench: &Bench, scale: &Scale, splash: &Drop) -> R
             count(scene.capacity.into())
         ));
         let memory = Memory::of(scene, &scene.particles.position);
-        for (grid, outcome) in of_all_grids(bench, scale, scene) {
+        for (grid, outcome) in of_grids(bench, scale, scene, main_names()) {
             let one = memory.allocation(&grid);
-            let storage = grid.split_once('-').map_or("counting", |(_, storage)| storage);
+            let bytes = memory.bytes(&grid);
+            let storage = if grid.ends_with("-pool") {
+                "pool"
+            } else {
+                "counting"
+            };
             let uniform = memory.allocation(&format!("uniform-{storage}"));
             let times = outcome.as_ref().ok();
             table.row([
@@ -81,14 +88,15 @@ pub fn shapes(page: &mut Page, bench: &Bench, scale: &Scale, splash: &Drop) -> R
                 Cell::count(scene.capacity.into()),
                 Cell::text(format!("`{grid}`")),
                 Cell::count(one.voxels),
-                Cell::bytes(one.bytes),
-                Cell::number(one.bytes as f64 / uniform.bytes as f64),
-                Cell::bytes(memory.octree_bytes(storage)[0]),
+                Cell::bytes(bytes),
+                Cell::number(bytes as f64 / uniform.bytes as f64),
+                Cell::bytes(memory.octree_bytes(storage)[1]),
                 Cell::maybe(times.map(|t| t.build_ms)),
                 Cell::maybe(times.map(Times::query_ms)),
                 Cell::maybe(times.map(|t| t.step_ms)),
                 outcome.as_ref().err().map_or(Cell::Nothing, Cell::text),
             ]);
+            ranks.push((*name, grid.clone(), bytes, times.map(|t| (t.build_ms, t.step_ms))));
             if storage == "pool" {
                 let addressing = grid.trim_end_matches("-pool").to_owned();
                 let percent = 100.0 * one.voxels as f64 / memory.domain_voxels as f64;
@@ -100,6 +108,8 @@ pub fn shapes(page: &mut Page, bench: &Bench, scale: &Scale, splash: &Drop) -> R
         }
     }
     page.table("shapes", &table);
+    page.paragraph("The best of these, shape by shape (bytes among grids without lists, which are exact):");
+    page.table("shapes_best", &best(&ranks));
     let mut chart = Bars::new(
         "Voxels with memory",
         "% of all voxels",
@@ -112,4 +122,41 @@ pub fn shapes(page: &mut Page, bench: &Bench, scale: &Scale, splash: &Drop) -> R
     page.picture("harada_shapes.png", "Voxels of each addressing.", |path| {
         chart.save(path)
     })
+}
+
+/// Shape, grid, bytes, milliseconds of construction and step.
+type Rank<'a> = (&'a str, String, u64, Option<(f64, f64)>);
+
+fn best(ranks: &[Rank<'_>]) -> Table {
+    let mut table = Table::new([
+        "shape",
+        "fewest bytes",
+        "bytes",
+        "fastest construction",
+        "ms",
+        "fastest step",
+        "step, ms",
+        "step of the default, ms",
+    ]);
+    for same in ranks.chunk_by(|a, b| a.0 == b.0) {
+        let exact = same.iter().filter(|rank| rank.1.ends_with("-counting"));
+        let fewest = exact.min_by_key(|rank| rank.2);
+        let timed = || same.iter().filter_map(|rank| Some((&rank.1, rank.3?)));
+        let built = timed().min_by(|a, b| a.1.0.total_cmp(&b.1.0));
+        let stepped = timed().min_by(|a, b| a.1.1.total_cmp(&b.1.1));
+        let usual = timed().find(|(name, _)| *name == LISTED[0]);
+        let name =
+            |found: Option<&String>| found.map_or(Cell::Nothing, |name| Cell::text(format!("`{name}`")));
+        table.row([
+            Cell::text(same[0].0),
+            name(fewest.map(|rank| &rank.1)),
+            fewest.map_or(Cell::Nothing, |rank| Cell::bytes(rank.2)),
+            name(built.map(|found| found.0)),
+            Cell::maybe(built.map(|found| found.1.0)),
+            name(stepped.map(|found| found.0)),
+            Cell::maybe(stepped.map(|found| found.1.1)),
+            Cell::maybe(usual.map(|found| found.1.1)),
+        ]);
+    }
+    table
 }

@@ -5,7 +5,7 @@ use super::{PAPER, Scale};
 use crate::error::{Error, Result};
 use crate::output::plot::Bars;
 use crate::output::text::count;
-use crate::study::bench::{Bench, first_line, grid_names, progress};
+use crate::study::bench::{Bench, LISTED, first_line, progress, timed_names};
 use crate::study::measure::{Entry, Outcome};
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
@@ -17,11 +17,16 @@ const SLICED: &str = "sliced-pool";
 /// Outcomes of every grid for each drop, with the grid's name.
 pub type AllTimes = Vec<Vec<(String, Outcome)>>;
 
-/// Times of every grid, from the same scene's first state. Grids that the scene's checks refuse tell why.
-pub fn of_all_grids(bench: &Bench, scale: &Scale, scene: &crate::scene::Scene) -> Vec<(String, Outcome)> {
+/// Times of grids, from the same scene's first state. Grids that the scene's checks refuse tell why.
+pub fn of_grids(
+    bench: &Bench,
+    scale: &Scale,
+    scene: &crate::scene::Scene,
+    names: Vec<String>,
+) -> Vec<(String, Outcome)> {
     let mut entries = Vec::new();
     let mut refused = Vec::new();
-    for name in grid_names() {
+    for name in names {
         match scenes::with_grid(scene, &name) {
             Ok(scene) => entries.push(Entry { name, scene }),
             Err(error) => refused.push((name, Err(refusal(&error)))),
@@ -57,7 +62,7 @@ pub fn table_2(page: &mut Page, bench: &Bench, scale: &Scale, drops: &[Drop]) ->
                 "harada: times of all grids, {} grains",
                 drop.scene.capacity
             ));
-            of_all_grids(bench, scale, &drop.at(&drop.widest))
+            of_grids(bench, scale, &drop.at(&drop.widest), timed_names())
         })
         .collect();
 
@@ -98,17 +103,24 @@ pub fn table_2(page: &mut Page, bench: &Bench, scale: &Scale, drops: &[Drop]) ->
     page.table("table_2", &table);
     page.paragraph("Every grid, milliseconds of construction / of a whole step:");
     page.table("table_2_all", &every_grid(drops, &times));
+    page.paragraph(format!(
+        "Which grid is the fastest: the geometric mean over the four drops of a step's time as a multiple of \
+         `{}`'s, which scenes get that do not choose; and the share of a step's passes that construction takes, on \
+         average.",
+        LISTED[0]
+    ));
+    page.table("winner", &winner(&times));
 
     let there = |name: &str| {
         times
             .iter()
             .all(|one| one.iter().any(|(n, o)| n == name && o.is_ok()))
     };
-    let names: Vec<String> = grid_names().into_iter().filter(|name| there(name)).collect();
+    let names: Vec<String> = timed_names().into_iter().filter(|name| there(name)).collect();
     let mut chart = Bars::new(
         "One step, by grid",
         "ms",
-        names.clone().into_iter().map(|n| n.replace('-', "\n")),
+        names.clone().into_iter().map(|n| n.replace(['-', '+'], "\n")),
     )
     .size(1400, 600)
     .log_y();
@@ -128,6 +140,41 @@ pub fn table_2(page: &mut Page, bench: &Bench, scale: &Scale, drops: &[Drop]) ->
         chart.save(path)
     })?;
     Ok(times)
+}
+
+/// Grids by the time of their steps, the fastest first.
+fn winner(times: &AllTimes) -> Table {
+    let found = |drop: &[(String, Outcome)], name: &str| {
+        let (_, outcome) = drop.iter().find(|(known, _)| known == name)?;
+        outcome.as_ref().ok().cloned()
+    };
+    let mut ranked = Vec::new();
+    for (name, _) in &times[0] {
+        let each = times.iter().map(|drop| {
+            let (own, usual) = (found(drop, name)?, found(drop, LISTED[0])?);
+            Some((
+                own.step_ms / usual.step_ms,
+                own.build_ms / (own.build_ms + own.query_ms()),
+            ))
+        });
+        let Some(each) = each.collect::<Option<Vec<_>>>() else {
+            continue;
+        };
+        let count = each.len() as f64;
+        let step = (each.iter().map(|(step, _)| step.ln()).sum::<f64>() / count).exp();
+        let share = each.iter().map(|(_, share)| share).sum::<f64>() / count;
+        ranked.push((name, step, share));
+    }
+    ranked.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let mut table = Table::new(["grid", "step, multiple", "construction's share of the passes"]);
+    for (name, step, share) in ranked {
+        table.row([
+            Cell::text(format!("`{name}`")),
+            Cell::number(step),
+            Cell::number(share),
+        ]);
+    }
+    table
 }
 
 fn every_grid(drops: &[Drop], times: &AllTimes) -> Table {
