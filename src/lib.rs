@@ -21,11 +21,13 @@
 //! - `src/gpu/`: the only user of wgpu. Shaders are composed (`src/gpu/compose.rs`) and reflected
 //!   (`src/gpu/reflect.rs`); a pass binds buffers by the name that they have everywhere (`src/gpu/pass.rs`).
 //! - `src/neighbors/`: neighbor search = `src/neighbors/addressing.rs` × `src/neighbors/storage.rs`.
-//!   `src/neighbors/occupancy/` counts on the host what each grid needs for any positions.
+//!   Neighbor lists serve several steps (`src/neighbors/lists.rs`). `src/neighbors/occupancy/` counts on the host what
+//!   each grid needs for any positions.
 //! - `src/physics/`: grains (`src/physics/dem.rs`) and obstacles; parameters and an ordered list of passes.
 //! - `src/render/`: pictures from the simulation's own buffers: splats, colliders, slices, the pool's heatmap, legends.
 //! - `src/plan/`: scene + limits → every buffer and pass, with the reason for each. Needs no GPU.
-//! - `src/simulation/`: executes a plan: steps, frames, what comes back.
+//! - `src/simulation/`: executes a plan: steps, frames, what comes back. Grids that need more room get it
+//!   (`src/simulation/growth.rs`); steps with lists are recorded in rounds (`src/simulation/rounds.rs`).
 //! - `src/output/`: sinks, each fed by bounded threads, and the run that drives them (`src/output/drive.rs`); its
 //!   checkpoints, and how it goes on from them (`src/output/resume.rs`); recordings for the Rerun viewer
 //!   (`src/output/rerun.rs`).

@@ -1,14 +1,10 @@
 // Builds the bitmap behind the table of rows (build_rows.wgsl): a bit for each voxel that holds a particle, then the
 // number of bits before each word.
-#import common/vector
-#import common/thread
-#import common/parameters
 #import common/workgroup_scan
-#import cells/grid
+#import cells/next_voxel
 #import cells/growth
 #import cells/row_table
 
-var<storage, read> next_position: array<Packed>;
 // Bits while they are set; zero between searches.
 var<storage, read_write> voxel_mark: array<atomic<u32>>;
 var<storage, read_write> voxel_word: array<vec2u>;
@@ -16,12 +12,8 @@ var<storage, read_write> voxel_word: array<vec2u>;
 // The look before the atomic spares all but the first particle of a voxel most of them.
 @compute @workgroup_size(GROUP_SIZE)
 fn mark_voxels(thread: Thread) {
-    let i = item_index(thread);
-    if i >= parameters.particle_count {
-        return;
-    }
-    let voxel = voxel_of(unpack(next_position[i]));
-    if is_quarantined(voxel) {
+    let voxel = next_voxel(thread);
+    if !is_followed(voxel) {
         return;
     }
     let row = row_record[row_of(voxel)];

@@ -1,15 +1,11 @@
 // Finds the regions: columns that hold particles, and where clusters of them begin.
-#import common/vector
-#import common/thread
-#import common/parameters
 #import common/workgroup_scan
-#import cells/grid
+#import cells/next_voxel
 #import cells/regions
 
 // Empty columns between two clusters that part them.
 const REGION_GAP: i32 = 4;
 
-var<storage, read> next_position: array<Packed>;
 // Not zero for a column that holds a particle; along u, then along w. Zero between searches.
 var<storage, read_write> column_mark: array<atomic<u32>>;
 var<storage, read_write> column_region: array<i32>;
@@ -22,12 +18,8 @@ fn mark(column: i32) {
 
 @compute @workgroup_size(GROUP_SIZE)
 fn mark_columns(thread: Thread) {
-    let i = item_index(thread);
-    if i >= parameters.particle_count {
-        return;
-    }
-    let voxel = voxel_of(unpack(next_position[i]));
-    if is_quarantined(voxel) {
+    let voxel = next_voxel(thread);
+    if !is_followed(voxel) {
         return;
     }
     mark(voxel.x - grid.low.x);

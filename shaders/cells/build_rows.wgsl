@@ -1,14 +1,10 @@
 // Builds the table of rows: the slices' extents along w and the rows' along u by atomic minimum and maximum, their
 // places by prefix sums.
-#import common/vector
-#import common/thread
-#import common/parameters
 #import common/workgroup_scan
-#import cells/grid
+#import cells/next_voxel
 #import cells/growth
 #import cells/extent
 
-var<storage, read> next_position: array<Packed>;
 // Two values a slice: lowest and highest w.
 var<storage, read_write> slice_bounds: array<atomic<i32>>;
 var<storage, read_write> slice_rows: array<vec2i>;
@@ -19,12 +15,8 @@ var<storage, read_write> row_record: array<vec2i>;
 // The look before the atomic spares nearly all of them: an extent stops growing after its first few particles.
 @compute @workgroup_size(GROUP_SIZE)
 fn bound_slices(thread: Thread) {
-    let i = item_index(thread);
-    if i >= parameters.particle_count {
-        return;
-    }
-    let voxel = voxel_of(unpack(next_position[i]));
-    if is_quarantined(voxel) {
+    let voxel = next_voxel(thread);
+    if !is_followed(voxel) {
         return;
     }
     let bounds = 2u * u32(voxel.y - grid.low.y);
@@ -93,13 +85,11 @@ fn row_of(voxel: Coordinate) -> u32 {
 
 @compute @workgroup_size(GROUP_SIZE)
 fn bound_rows(thread: Thread) {
-    let i = item_index(thread);
-    if i >= parameters.particle_count {
-        return;
-    }
-    let voxel = voxel_of(unpack(next_position[i]));
+    let voxel = next_voxel(thread);
     if is_quarantined(voxel) {
         atomicAdd(&search_state.quarantined_so_far, 1u);
+    }
+    if !is_followed(voxel) {
         return;
     }
     let bounds = 2u * row_of(voxel);

@@ -1,17 +1,13 @@
 // Builds the slices (Harada 2007, Section 5): bounding boxes by atomic minimum and maximum, then first indices by a
 // prefix sum over the slices' voxel counts (Eq. 3).
-#import common/vector
-#import common/thread
-#import common/parameters
 #import common/workgroup_scan
-#import cells/grid
+#import cells/next_voxel
 #import cells/growth
 #import cells/extent
 #if regions
 #import cells/regions
 #end
 
-var<storage, read> next_position: array<Packed>;
 // Four values a slice: lowest u, lowest w, highest u, highest w.
 var<storage, read_write> slice_bounds: array<atomic<i32>>;
 var<storage, read_write> slice_record: array<vec4i>;
@@ -55,13 +51,11 @@ fn raise_to(index: u32, value: i32) {
 // The look before the atomic spares nearly all of them: a box stops growing after its first few particles.
 @compute @workgroup_size(GROUP_SIZE)
 fn bound_slices(thread: Thread) {
-    let i = item_index(thread);
-    if i >= parameters.particle_count {
-        return;
-    }
-    let voxel = voxel_of(unpack(next_position[i]));
+    let voxel = next_voxel(thread);
     if is_quarantined(voxel) {
         atomicAdd(&search_state.quarantined_so_far, 1u);
+    }
+    if !is_followed(voxel) {
         return;
     }
     let bounds = 4u * slice_index(voxel);

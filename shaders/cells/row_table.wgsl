@@ -1,4 +1,5 @@
 // The rows of each slice, in the extent of the slice's particles along w; a row in the extent of its own along u.
+#import cells/grid
 
 #if !two_dimensional
 // One record a slice: its first row, and that row's w. One more stands at the end; its first value is the number of
@@ -38,3 +39,16 @@ fn row_of(v: Coordinate) -> i32 {
     return select(-1, row, v.z >= slice.y && row < slice_rows[s + 1].x);
 }
 #end
+
+// What is near `home` in the k-th row around it and has memory: voxels [x, y) counted from the row's first one, and z
+// the index in the row's record. An index stands for so many voxels.
+fn row_part(home: Coordinate, k: u32, voxels: i32) -> vec3u {
+    let index = row_of(home + row_offset(k));
+    if index < 0 {
+        return vec3u(0u);
+    }
+    let row = row_record[index];
+    let begin = max(home.x - i32(REACH) - row.y, 0);
+    let end = min(home.x + i32(REACH) + 1 - row.y, voxels * (row_record[index + 1].x - row.x));
+    return select(vec3u(0u), vec3u(vec3i(begin, end, row.x)), begin < end);
+}

@@ -31,35 +31,21 @@ struct Paper {
 
 /// The first row says 16,386 grains; 16 × 64 × 16 are 16,384, and the others fit such blocks too.
 const PAPER: [Paper; 4] = [
-    Paper {
-        grains: 16_386,
-        ratio: 0.0394,
-        build: [1.48, 0.688],
-        step: [2.53, 2.19],
-        voxels: 82_675,
-    },
-    Paper {
-        grains: 65_536,
-        ratio: 0.0619,
-        build: [3.91, 2.56],
-        step: [9.68, 8.58],
-        voxels: 129_781,
-    },
-    Paper {
-        grains: 262_144,
-        ratio: 0.269,
-        build: [13.9, 10.3],
-        step: [42.0, 36.9],
-        voxels: 564_354,
-    },
-    Paper {
-        grains: 589_824,
-        ratio: 0.488,
-        build: [31.7, 23.0],
-        step: [96.4, 90.9],
-        voxels: 1_022_551,
-    },
+    paper(16_386, 0.0394, [1.48, 0.688], [2.53, 2.19], 82_675),
+    paper(65_536, 0.0619, [3.91, 2.56], [9.68, 8.58], 129_781),
+    paper(262_144, 0.269, [13.9, 10.3], [42.0, 36.9], 564_354),
+    paper(589_824, 0.488, [31.7, 23.0], [96.4, 90.9], 1_022_551),
 ];
+
+const fn paper(grains: u64, ratio: f64, build: [f64; 2], step: [f64; 2], voxels: u64) -> Paper {
+    Paper {
+        grains,
+        ratio,
+        build,
+        step,
+        voxels,
+    }
+}
 
 /// How large everything is.
 struct Scale {
