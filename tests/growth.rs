@@ -264,3 +264,30 @@ fn lists_serve_several_steps_and_miss_no_contact() {
         }
     }
 }
+
+#[test]
+fn grains_that_meet_between_two_frames_are_found() {
+    // Two grains far beyond each other's lists meet in the middle of a frame.
+    let base = common::scene(3, &[]);
+    let diameter = 2.0 * base.grains.radius as f32;
+    let speed = 2.0 * diameter * base.time.fps as f32;
+    let run = |skin: &str| {
+        let at = |side: f32| Vec3::X * side;
+        let position = vec![at(diameter), at(-diameter)];
+        let velocity = vec![at(-speed), at(speed)];
+        frames(
+            &scene(3, &[&format!("neighbors.skin={skin}")], position, velocity),
+            1,
+        )
+    };
+    let (searched, listed) = (run("0"), run("0.1"));
+    let right = positions(&searched[1])[0];
+    assert!(right > 0.4 * f64::from(diameter), "they bounce: {right} m");
+    let error = apart(&searched[1], &listed[1]);
+    assert!(error < 1e-3 * f64::from(diameter), "{error} m apart");
+    assert!(
+        (2..listed[1].steps as u32 / 2).contains(&listed[1].searches),
+        "{} searches",
+        listed[1].searches
+    );
+}

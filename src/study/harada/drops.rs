@@ -174,14 +174,21 @@ pub fn figure_6(page: &mut Page, drop: &Drop) -> Result<()> {
     ));
     let percent = |voxels: u64| 100.0 * voxels as f64 / drop.domain_voxels as f64;
     let uniform = |k: &usize| drop.moments.iter().any(|m| m.voxels[*k] < drop.domain_voxels);
+    let mut leaves = "octree, leaves".to_owned();
     let mut plot = Plot::new("Voxels with memory", "time, s", "% of all voxels");
     for k in (0..ADDRESSINGS.len()).filter(uniform) {
+        // A curve below another one could not be seen.
+        let hidden = drop.moments.iter().all(|m| m.voxels[k] == m.octree_leaves);
         let points = drop.moments.iter().map(|m| (m.time, percent(m.voxels[k])));
-        plot = plot.series(ADDRESSINGS[k].name, points);
+        if hidden {
+            leaves = format!("{leaves}, and {}", ADDRESSINGS[k].name);
+        } else {
+            plot = plot.series(ADDRESSINGS[k].name, points);
+        }
     }
     plot = plot
         .series(
-            "octree, leaves",
+            leaves,
             drop.moments.iter().map(|m| (m.time, percent(m.octree_leaves))),
         )
         .mark_y(6.25, "paper's sliced, end")
