@@ -71,7 +71,7 @@ fn heap(dimensions: usize, overrides: &[&str]) -> Scene {
     }
     let lowest = scene.particles.position.iter().fold(Vec3::MAX, |a, b| a.min(*b));
     for p in &mut scene.particles.position {
-        let shift = (low - lowest) + Vec3::splat(0.9 * scene.grains.radius as f32);
+        let shift = (low - lowest) + Vec3::splat(0.9 * scene.radius() as f32);
         *p += if dimensions == 2 { shift.with_z(0.0) } else { shift };
     }
     scene
@@ -181,7 +181,7 @@ fn collision(overrides: &[&str], speed: f32) -> Scene {
     ];
     all.extend(overrides);
     let mut scene = common::scene(3, &all);
-    let gap = 1.05 * scene.grains.radius as f32;
+    let gap = 1.05 * scene.radius() as f32;
     scene.particles = Particles {
         position: vec![Vec3::new(-gap, 0.1, 0.05), Vec3::new(gap, 0.1, 0.05)],
         velocity: vec![Vec3::X * speed, -Vec3::X * speed],
@@ -222,7 +222,7 @@ fn a_wall_gives_the_same_restitution_as_a_grain() {
         0.5,
     );
     let low = scene.domain.min.y;
-    scene.particles.position = vec![Vec3::new(0.0, low + 1.05 * scene.grains.radius as f32, 0.0)];
+    scene.particles.position = vec![Vec3::new(0.0, low + 1.05 * scene.radius() as f32, 0.0)];
     scene.particles.velocity = vec![Vec3::NEG_Y * 0.5];
     scene.capacity = 1;
     let frame = run(&scene, 1).unwrap();
@@ -237,7 +237,7 @@ fn coincident_grains_part_and_stay_finite() {
     let frame = run(&scene, 1).unwrap();
     let position = vectors(&frame, "position");
     assert!(
-        position[0].distance(position[1]) > 1.9 * scene.grains.radius,
+        position[0].distance(position[1]) > 1.9 * scene.radius(),
         "{position:?}"
     );
 }
@@ -325,7 +325,7 @@ fn grains_rest_on_every_kind_of_obstacle() {
             .colliders
             .iter()
             .filter_map(|collider| match &collider.shape {
-                ColliderShape::Mesh(mesh) => Some(SignedDistance::new(mesh, 0.5 * scene.grains.radius, 0.1)),
+                ColliderShape::Mesh(mesh) => Some(SignedDistance::new(mesh, 0.5 * scene.radius(), 0.1)),
                 _ => None,
             })
             .collect();

@@ -243,7 +243,7 @@ fn lists_serve_several_steps_and_miss_no_contact() {
             };
             let (searched, scene) = run("0", "sliced");
             let moved = apart(&searched[0], &searched[2]);
-            let diameter = 2.0 * scene.grains.radius;
+            let diameter = 2.0 * scene.radius();
             assert!(moved > 0.5 * diameter, "nothing happens: {moved} m");
             for grid in ["uniform", "sliced", "bitmap", "hash"] {
                 for skin in ["0.05", "0.4"] {

@@ -183,7 +183,11 @@ fn steps_end_on_frames_and_resolve_the_contact() {
     let frame = f64::from(plan.steps_per_frame) * plan.time_step_s;
     assert!((frame - 1.0 / scene.time.fps).abs() < 1e-12);
     // Duration of a contact of two grains: π / (ω0 √(1 - β²)), ω0² = 2k/m.
-    let (k, m, e) = (scene.grains.contact.spring, scene.grains.mass, 0.6f64);
+    let (k, m, e) = (
+        scene.grains().unwrap().contact.spring,
+        scene.grains().unwrap().mass,
+        0.6f64,
+    );
     let beta = -e.ln() / (std::f64::consts::PI.powi(2) + e.ln().powi(2)).sqrt();
     let duration = std::f64::consts::PI / ((2.0 * k / m).sqrt() * (1.0 - beta * beta).sqrt());
     assert!(

@@ -178,8 +178,8 @@ fn restitution_and_duration_are_those_of_the_oscillator() {
         let mut given = block();
         given["grains"]["restitution"] = json!(e);
         let scene = valid(&given, &[]);
-        assert_near(scene.grains.mass, mass);
-        let contact = scene.grains.contact;
+        assert_near(scene.grains().unwrap().mass, mass);
+        let contact = scene.grains().unwrap().contact;
         let (after, duration) = rebound(contact.spring, contact.damping, mass / 2.0);
         assert!((after - e).abs() < 1e-3, "two grains: {after} for {e}");
         assert!((scene.time.contact_duration / duration - 1.0).abs() < 1e-3);
@@ -209,11 +209,11 @@ fn a_disc_is_one_metre_thick() {
         &[],
     );
     assert_eq!(scene.dimensions, Dimensions::Two);
-    assert_near(scene.grains.mass, 10.0 * PI * 0.01);
+    assert_near(scene.grains().unwrap().mass, 10.0 * PI * 0.01);
     assert_eq!(scene.particles.len(), 6);
     assert_eq!((scene.domain.min.z, scene.domain.max.z), (0.0, 0.0));
     assert!(scene.particles.position.iter().all(|p| p.z == 0.0));
-    assert_eq!(scene.grains.contact.damping, 0.0);
+    assert_eq!(scene.grains().unwrap().contact.damping, 0.0);
 }
 
 // Time
@@ -416,7 +416,7 @@ fn events_keep_what_they_do_not_change() {
     assert_eq!(stiff, later);
     assert_eq!(stiff.spring, 4000.0);
     // The restitution of 0.5 holds on.
-    assert_near(stiff.damping, 2.0 * scene.grains.contact.damping);
+    assert_near(stiff.damping, 2.0 * scene.grains().unwrap().contact.damping);
 }
 
 #[test]

@@ -106,7 +106,7 @@ fn points(scene: &Scene, count: usize, clustered: bool) -> Vec<Vec3> {
     let mut rng = ChaCha8Rng::seed_from_u64(count as u64);
     let min = scene.domain.min;
     let extent = if clustered {
-        Vec3::splat(5.0 * scene.grains.radius as f32)
+        Vec3::splat(5.0 * scene.radius() as f32)
     } else {
         scene.domain.max - min
     };
@@ -244,7 +244,7 @@ fn flat(n: u32) -> Scene {
             "colliders=[]",
         ],
     );
-    let reach = 2.0 * scene.grains.radius as f32;
+    let reach = 2.0 * scene.radius() as f32;
     scene.domain.max = scene.domain.min + Vec3::new(1.0, 1.0, 0.0) * reach * (n as f32 - 0.5);
     assert_eq!(first_grid(&scene).size[..2], [n as i32; 2]);
     scene

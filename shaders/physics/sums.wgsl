@@ -6,6 +6,8 @@ struct Sums {
     max_speed: f32, // m/s
     max_overlap: f32, // m
     contacts: u32, // as seen by each particle: a contact of two counts twice
+    density_error: f32, // of a fluid, |ρ/ρ₀ − 1|, summed
+    max_density_error: f32,
 }
 
 fn add_sums(a: Sums, b: Sums) -> Sums {
@@ -15,5 +17,7 @@ fn add_sums(a: Sums, b: Sums) -> Sums {
         max(a.max_speed, b.max_speed),
         max(a.max_overlap, b.max_overlap),
         a.contacts + b.contacts,
+        a.density_error + b.density_error,
+        max(a.max_density_error, b.max_density_error),
     );
 }

@@ -1,6 +1,7 @@
 // Particles into the shadow map: squares of a disc's area across the light, at the depth of the center.
 
 #import render/state
+#import render/drawn
 #import render/picture
 #import render/splat_quad
 
@@ -21,6 +22,9 @@ fn cast_splat(@builtin(vertex_index) index: u32, @builtin(instance_index) i: u32
     let half = texels * 0.886; // √π / 2: the area of the disc
 #end
     caster.clip = center + vec4f(caster.offset * half * 2.0 / f32(SHADOW_TEXELS), 0.0, 0.0);
+    if !is_drawn(i) {
+        caster.clip = NOWHERE;
+    }
     return caster;
 }
 

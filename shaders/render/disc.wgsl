@@ -1,6 +1,7 @@
 // Particles as flat discs in the color of their value (Rojas 2013).
 
 #import render/state
+#import render/drawn
 #import render/picture
 #import render/splat_quad
 
@@ -24,6 +25,9 @@ fn place_disc(@builtin(vertex_index) index: u32, @builtin(instance_index) i: u32
     let middle = picture.view_projection * vec4f(center, 1.0);
     corner.clip.z = middle.z / middle.w * corner.clip.w;
     corner.color = unpack_srgb(splat[i]);
+    if !is_drawn(i) {
+        corner.clip = NOWHERE;
+    }
     return corner;
 }
 

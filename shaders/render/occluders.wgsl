@@ -2,6 +2,7 @@
 // that every texel whose middle it covers is covered wholly.
 
 #import render/state
+#import render/drawn
 #import render/picture
 #import render/splat_quad
 
@@ -12,7 +13,7 @@ fn place_occluder(@builtin(vertex_index) index: u32, @builtin(instance_index) i:
     let distance = select(1.0, dot(center - picture.eye.xyz, picture.forward.xyz), picture.eye.w > 0.5);
     let texel = 2.0 * picture.lens.y * distance / f32(picture.rectangle.w);
     let half = 0.7 * picture.radius - 0.8 * texel;
-    if half <= 0.0 || quad.half == 0.0 {
+    if half <= 0.0 || quad.half == 0.0 || !is_drawn(i) {
         return NOWHERE;
     }
     let at = strip_corner(index) * half;

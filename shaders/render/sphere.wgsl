@@ -2,6 +2,7 @@
 // the geometry shader's place).
 
 #import render/state
+#import render/drawn
 #import render/picture
 #import render/splat_quad
 #import render/lighting
@@ -22,7 +23,7 @@ fn place_sphere(@builtin(vertex_index) index: u32, @builtin(instance_index) i: u
     var corner: Corner;
     corner.clip = NOWHERE;
     let look = splat[i];
-    if look >= 0x1000000u { // otherwise hidden
+    if look >= 0x1000000u && is_drawn(i) { // otherwise hidden
         let center = to_3d(unpack(position[i]));
         let quad = splat_quad(center, picture.radius);
         let at = strip_corner(index);

@@ -11,6 +11,14 @@ var<storage, read_write> id: array<u32>;
 var<storage, read> next_acceleration: array<Packed>;
 var<storage, read_write> acceleration: array<Packed>;
 #end
+#if continuity
+var<storage, read> next_excess: array<f32>;
+var<storage, read_write> excess: array<f32>;
+#end
+#if several_materials
+var<storage, read> next_material: array<u32>;
+var<storage, read_write> material: array<u32>;
+#end
 
 fn place(i: u32, slot: u32) {
     position[slot] = next_position[i];
@@ -18,5 +26,11 @@ fn place(i: u32, slot: u32) {
     id[slot] = next_id[i];
 #if accelerations
     acceleration[slot] = next_acceleration[i];
+#end
+#if continuity
+    excess[slot] = next_excess[i];
+#end
+#if several_materials
+    material[slot] = next_material[i];
 #end
 }

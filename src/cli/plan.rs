@@ -148,11 +148,15 @@ impl fmt::Display for Report<'_> {
             start => writeln!(f, " at the end, {} at the start", count(start))?,
         }
         writeln!(f, "grid       {}", grid::name(&scene.neighbors))?;
-        writeln!(
+        write!(
             f,
-            "step       {:.4e} s, limited by the {}; the shortest contact lasts {:.4e} s",
-            time.step, time.limited_by, time.contact_duration
+            "step       {:.4e} s, limited by the {}",
+            time.step, time.limited_by
         )?;
+        match time.contact_duration {
+            Some(contact) => writeln!(f, "; the shortest contact lasts {contact:.4e} s")?,
+            None => writeln!(f)?,
+        }
         writeln!(
             f,
             "frames     {} at {} a simulated second, {} steps a frame, {} steps in all",

@@ -10,7 +10,9 @@
 //! The libraries that do this (naga_oil, wesl) rename what they import; here a buffer has one name everywhere, and
 //! the reflection in [`super::reflect`] depends on that.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 use include_dir::{Dir, include_dir};
 
@@ -104,6 +106,16 @@ pub fn files() -> Vec<String> {
     found
 }
 
+/// The text of a shader file, from the folder that `SLICEFLOW_SHADERS` names while one works on shaders.
+fn source(file: &str) -> Option<Cow<'static, str>> {
+    match std::env::var_os("SLICEFLOW_SHADERS") {
+        Some(folder) => std::fs::read_to_string(Path::new(&folder).join(file))
+            .ok()
+            .map(Cow::from),
+        None => SHADERS.get_file(file)?.contents_utf8().map(Cow::from),
+    }
+}
+
 /// Composes `shaders/{path}.wgsl`.
 pub fn compose(path: &str, variant: &Variant) -> Result<Composed> {
     let mut composed = Composed {
@@ -138,10 +150,7 @@ impl Composed {
         }
         let file = format!("{path}.wgsl");
         let fail = |what: String| Error::Shader { message: what };
-        let source = SHADERS
-            .get_file(&file)
-            .and_then(|found| found.contents_utf8())
-            .ok_or_else(|| fail(format!("{from}: there is no shaders/{file}")))?;
+        let source = source(&file).ok_or_else(|| fail(format!("{from}: there is no shaders/{file}")))?;
         // One entry for each open `#if`: whether its lines are kept.
         let mut open: Vec<bool> = Vec::new();
         for (index, line) in source.lines().enumerate() {

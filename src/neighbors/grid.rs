@@ -39,6 +39,12 @@ shared_struct! {
         /// Square of the way that a particle may move while its list serves, m².
         pub list_move: f32,
         pub _pad: [u32; 2],
+        /// In (x, y, z) order: lengths after which space repeats, metres; 0 along directions where it does not.
+        pub period: [f32; 4],
+        /// 1/m; 0 along those directions.
+        pub inverse_period: [f32; 4],
+        /// Lower corner of what repeats, metres.
+        pub period_lower: [f32; 4],
     }
 }
 
@@ -57,16 +63,17 @@ impl Grid {
     /// what the side is wider. Coordinates up to n voxels carry an error below 1.5·2⁻²³·n each, so the side is wider
     /// by n·2⁻²¹.
     pub fn new(scene: &Scene, axis: Axis) -> Self {
-        let radius = 2.0 * scene.grains.radius;
+        let radius = scene.search_radius();
         let skin = radius * scene.neighbors.skin;
         let reach = (radius + skin) / f64::from(voxel_reach(scene));
         let domain = &scene.domain;
-        let extent = (domain.max - domain.min).as_dvec3();
+        let (min, max) = searched(scene);
+        let extent = max - min;
         let eight_sides = 8.0 * extent.max_element();
         let follow = scene.neighbors.quarantine_distance.unwrap_or(eight_sides);
         let open = |axis: usize, end: usize| match domain.sides[axis][end] {
             Wall::Open => follow,
-            Wall::Contact | Wall::Clamp => 0.0,
+            _ => 0.0,
         };
         let sides = [0, 1].map(|end| DVec3::from([0, 1, 2].map(|axis| open(axis, end))));
         let widest = ((extent + sides[0].max(sides[1])).max_element() / reach)
@@ -82,7 +89,8 @@ impl Grid {
         if flat {
             (size[2], below[2], beyond[2]) = (1, 0, 0);
         }
-        let lower = permuted(domain.min.as_dvec3(), axis).map(|x| x as f32);
+        let lower = permuted(min, axis).map(|x| x as f32);
+        let inverse = |length: f32| if length > 0.0 { 1.0 / length } else { 0.0 };
         let four = |v: [i32; 3], last| [v[0], v[1], v[2], last];
         Self {
             lower: [lower[0], lower[1], lower[2], 0.0],
@@ -95,6 +103,11 @@ impl Grid {
             frame_steps: scene.time.steps_per_frame,
             list_reach: (radius + skin) as f32,
             list_move: (0.5 * skin * (1.0 - MOVE_ROUNDING)).powi(2) as f32,
+            period: domain.period().extend(0.0).into(),
+            inverse_period: Vec3::from(domain.period().to_array().map(inverse))
+                .extend(0.0)
+                .into(),
+            period_lower: domain.min.extend(0.0).into(),
             ..Default::default()
         }
     }
@@ -160,6 +173,19 @@ impl Grid {
     pub fn slice_of(&self, position: Vec3) -> u32 {
         self.voxel_in_domain(position)[1] as u32
     }
+}
+
+/// Corners of the domain and of the layers of boundary particles beyond its sides, metres.
+fn searched(scene: &Scene) -> (DVec3, DVec3) {
+    let depth = |axis: usize, end: usize| match scene.domain.sides[axis][end] {
+        Wall::Particles if axis < scene.dimensions.count() => scene.walls.depth,
+        _ => 0.0,
+    };
+    let [below, beyond] = [0, 1].map(|end| DVec3::from([0, 1, 2].map(|axis| depth(axis, end))));
+    (
+        scene.domain.min.as_dvec3() - below,
+        scene.domain.max.as_dvec3() + beyond,
+    )
 }
 
 /// Voxels that a neighbor can be away along one direction: `REACH` in shaders.

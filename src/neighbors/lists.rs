@@ -5,7 +5,7 @@ use super::Search;
 use super::addressing::search_state;
 use super::layout::ListState;
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
-use crate::scene::{Dimensions, Scene};
+use crate::scene::{Dimensions, Matter, Scene};
 
 /// Shader of the pass that counts a step; with lists it also decides whether to search.
 const CLOCK: &str = "physics/advance_clock";
@@ -15,14 +15,20 @@ pub fn wanted(scene: &Scene) -> bool {
     scene.neighbors.skin > 0.0
 }
 
-/// Neighbors of a particle in a dense packing of equal spheres, within the radius and the skin.
+/// Neighbors of a particle within the radius and the skin: in a dense packing of equal spheres, or on a lattice as wide
+/// as a fluid's spacing.
 pub fn usual_length(scene: &Scene) -> u32 {
     let reach = 1.0 + scene.neighbors.skin;
-    let (touching, dimensions) = match scene.dimensions {
-        Dimensions::Two => (6.0, 2),
-        Dimensions::Three => (12.0, 3),
+    let radii = scene.search_radius() / (2.0 * scene.radius()) * reach;
+    let (touching, ball, dimensions) = match scene.dimensions {
+        Dimensions::Two => (6.0, std::f64::consts::PI, 2),
+        Dimensions::Three => (12.0, 4.0 / 3.0 * std::f64::consts::PI, 3),
     };
-    (touching * f64::powi(reach, dimensions)).ceil() as u32
+    let count = match scene.matter {
+        Matter::Grains(_) => touching * f64::powi(reach, dimensions),
+        Matter::Fluid(_) => ball * f64::powi(radii, dimensions),
+    };
+    count.ceil() as u32
 }
 
 /// The lists' own buffers, with room for so many neighbors of each particle.
@@ -60,6 +66,7 @@ pub fn buffers(scene: &Scene, length: u32) -> [BufferPlan; 4] {
 pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
     variant
         .flag("lists", true)
+        .flag("periodic", scene.domain.period() != glam::Vec3::ZERO)
         .role("candidates", "storage/lists/query");
     search_state(search);
     search.buffers.extend(buffers(scene, search.grid.list_capacity));

@@ -76,6 +76,11 @@ struct Measured {
     /// As a share of the radius.
     max_overlap: f64,
     contacts: u64,
+    /// Of a fluid, |ρ/ρ₀ − 1|.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    density_error_mean: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    density_error_max: Option<f64>,
     voxels_allocated: u32,
     voxels_occupied: u32,
     voxels_with_1: u32,
@@ -95,6 +100,8 @@ impl From<&Statistics> for Measured {
             max_speed_m_per_s: from.max_speed,
             max_overlap: from.max_overlap,
             contacts: from.contacts,
+            density_error_mean: from.density_error.map(|[mean, _]| mean),
+            density_error_max: from.density_error.map(|[_, most]| most),
             voxels_allocated: from.voxels_allocated,
             voxels_occupied: from.voxels_occupied,
             voxels_with_1,

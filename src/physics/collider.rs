@@ -60,7 +60,7 @@ impl Obstacles {
                 ..Default::default()
             },
             ColliderShape::Mesh(mesh) => {
-                let grain = scene.grains.radius;
+                let grain = scene.radius();
                 let (min, max) = mesh.bounds();
                 let extent = max - min + 4.0 * grain;
                 let smallest = (extent.x * extent.y * extent.z / MOST_NODES).cbrt();

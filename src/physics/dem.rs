@@ -24,15 +24,15 @@ pub fn packed_bytes(dimensions: Dimensions) -> u64 {
 }
 
 /// The contact laws that hold at some time during the run.
-fn contacts(scene: &Scene) -> impl Iterator<Item = scene::Contact> {
+fn contacts(scene: &Scene, grains: &scene::Grains) -> impl Iterator<Item = scene::Contact> {
     let later = scene
         .schedule
         .iter()
         .filter_map(|scheduled| match &scheduled.action {
-            Action::SetParameters { contact, .. } => Some(*contact),
+            Action::SetParameters { contact, .. } => *contact,
             Action::Add(_) => None,
         });
-    std::iter::once(scene.grains.contact).chain(later)
+    std::iter::once(grains.contact).chain(later)
 }
 
 fn has_wall(scene: &Scene, kind: Wall) -> bool {
@@ -46,6 +46,7 @@ fn has_wall(scene: &Scene, kind: Wall) -> bool {
 /// What grains need. `columns` are those that somebody asked for, `statistics` whether figures over all grains are.
 pub fn plan(
     scene: &Scene,
+    grains: &scene::Grains,
     obstacles: &Obstacles,
     columns: &[Column],
     statistics: bool,
@@ -53,7 +54,7 @@ pub fn plan(
 ) -> Solver {
     let contact_walls = has_wall(scene, Wall::Contact);
     let clamp_walls = has_wall(scene, Wall::Clamp);
-    let ever = |positive: fn(&scene::Contact) -> bool| contacts(scene).any(|c| positive(&c));
+    let ever = |positive: fn(&scene::Contact) -> bool| contacts(scene, grains).any(|c| positive(&c));
     let measured: Vec<&Column> = columns.iter().filter(|c| c.source == Source::Measured).collect();
     variant
         .flag("contact_walls", contact_walls)
@@ -61,7 +62,7 @@ pub fn plan(
         .flag("colliders", !obstacles.colliders.is_empty())
         .flag("moving_colliders", obstacles.moving)
         .flag("mesh_colliders", !obstacles.field.is_empty())
-        .flag("normal_dashpot", scene.grains.contact.dashpot == Dashpot::Normal)
+        .flag("normal_dashpot", grains.contact.dashpot == Dashpot::Normal)
         .flag("shear", ever(|c| c.shear > 0.0))
         .flag("attraction", ever(|c| c.attraction > 0.0))
         .flag("global_damping", ever(|c| c.global_damping > 0.0))
@@ -171,7 +172,7 @@ pub fn plan(
 }
 
 /// The contact law's coefficients for the shaders.
-pub fn contact_values(scene: &Scene, contact: &scene::Contact) -> Contact {
+pub fn contact_values(grains: &scene::Grains, contact: &scene::Contact) -> Contact {
     Contact {
         spring: contact.spring as f32,
         damping: contact.damping as f32,
@@ -179,8 +180,8 @@ pub fn contact_values(scene: &Scene, contact: &scene::Contact) -> Contact {
         shear: contact.shear as f32,
         attraction: contact.attraction as f32,
         global_damping: contact.global_damping as f32,
-        diameter: (2.0 * scene.grains.radius) as f32,
-        inverse_mass: (1.0 / scene.grains.mass) as f32,
+        diameter: (2.0 * grains.radius) as f32,
+        inverse_mass: (1.0 / grains.mass) as f32,
     }
 }
 
@@ -205,7 +206,7 @@ pub fn contact_walls(scene: &Scene) -> ContactWalls {
 }
 
 pub fn clamp_walls(scene: &Scene) -> ClampWalls {
-    let (lower, upper) = bounds(scene, |wall| wall == Wall::Clamp, scene.grains.radius as f32);
+    let (lower, upper) = bounds(scene, |wall| wall == Wall::Clamp, scene.radius() as f32);
     ClampWalls {
         lower,
         upper,
@@ -214,18 +215,18 @@ pub fn clamp_walls(scene: &Scene) -> ClampWalls {
     }
 }
 
-/// Where grains count as lost: a diameter beyond a side that is not open.
+/// Where particles count as lost: a diameter beyond a side that is closed.
 pub fn guard_bounds(scene: &Scene) -> ([f32; 4], [f32; 4]) {
     bounds(
         scene,
-        |wall| wall != Wall::Open,
-        -2.0 * scene.grains.radius as f32,
+        |wall| !matches!(wall, Wall::Open | Wall::Periodic),
+        -2.0 * scene.radius() as f32,
     )
 }
 
-pub fn measure(scene: &Scene, grid: &Grid) -> Measure {
+pub fn measure(scene: &Scene, grains: &scene::Grains, grid: &Grid) -> Measure {
     use std::f64::consts::PI;
-    let radius = scene.grains.radius;
+    let radius = grains.radius;
     let side = f64::from(grid.side);
     let row = f64::from(2 * voxel_reach(scene) + 1);
     let (surface, block_volume) = match scene.dimensions {
@@ -234,7 +235,7 @@ pub fn measure(scene: &Scene, grid: &Grid) -> Measure {
     };
     let Vec3 { x, y, z } = scene.domain.min;
     Measure {
-        mass: scene.grains.mass as f32,
+        mass: grains.mass as f32,
         surface: surface as f32,
         block_volume: block_volume as f32,
         reference: [x, y, z, 0.0],

@@ -114,6 +114,9 @@ shared_struct! {
         pub max_overlap: f32,
         /// Over all grains; a contact of two counts twice.
         pub contacts: u32,
+        /// Of a fluid, |ρ/ρ₀ − 1|, summed over its particles.
+        pub density_error: f32,
+        pub max_density_error: f32,
     }
 }
 
@@ -136,6 +139,56 @@ shared_struct! {
     }
 }
 
+shared_struct! {
+    pub struct Fluid {
+        /// Metres.
+        pub support: f32,
+        /// 1/m.
+        pub inverse_smoothing: f32,
+        pub kernel_scale: f32,
+        pub slope_scale: f32,
+        pub laplacian_scale: f32,
+        /// m³, or m² in 2D.
+        pub volume: f32,
+        /// kg/m³.
+        pub density: f32,
+        /// Pa·s.
+        pub viscosity: f32,
+        /// Pa.
+        pub stiffness: f32,
+        /// Pa.
+        pub background_pressure: f32,
+        /// s²/m².
+        pub inverse_sound_squared: f32,
+        /// m²/s.
+        pub diffusion: f32,
+        /// m²/s.
+        pub artificial_viscosity: f32,
+        /// m²/s.
+        pub shifting: f32,
+        /// Metres.
+        pub shift_limit: f32,
+        pub kernel_at_spacing: f32,
+        /// m².
+        pub smallest_square: f32,
+        pub first_wall: u32,
+        pub _pad: [u32; 2],
+        /// 1 along directions in which space does not repeat, else 0.
+        pub closed: [f32; 4],
+    }
+}
+
+shared_struct! {
+    pub struct Material {
+        /// kg/m³.
+        pub density: f32,
+        /// Pa·s.
+        pub viscosity: f32,
+        /// Pa.
+        pub stiffness: f32,
+    }
+}
+
 /// Everything to hold against the shaders.
 pub const SHARED: &[SharedLayout] = &[
     Parameters::LAYOUT,
@@ -146,6 +199,8 @@ pub const SHARED: &[SharedLayout] = &[
     Contact::LAYOUT,
     Collider::LAYOUT,
     Measure::LAYOUT,
+    Fluid::LAYOUT,
+    Material::LAYOUT,
     Sums::LAYOUT,
     Occupancy::LAYOUT,
     Overflow::LAYOUT,

@@ -2,6 +2,8 @@
 
 pub mod collider;
 pub mod dem;
+pub mod fluid;
+pub mod kernels;
 pub mod layout;
 
 use crate::gpu::{BufferPlan, PassPlan};

@@ -13,17 +13,17 @@ use crate::gpu::pass::{INDEX_STRIDE, fold};
 use crate::gpu::{BufferPlan, DISPATCHES, Items, PassPlan, Variant};
 use crate::neighbors::{self, Grid};
 use crate::physics::collider::Obstacles;
-use crate::physics::dem;
 use crate::physics::layout::{Clock, Guard, Occupancy, Parameters, Sums};
+use crate::physics::{dem, fluid};
 use crate::render;
 use crate::scene::column::{Column, Source};
 use crate::scene::model::View;
-use crate::scene::{Dimensions, Scene};
+use crate::scene::{Dimensions, Matter, Scene};
 
 /// What is wanted of a run besides simulating; what nobody wants has no pass and no buffer.
 #[derive(Debug, Clone, Default)]
 pub struct Wanted {
-    /// Figures over all grains and voxels.
+    /// Figures over all particles and voxels.
     pub statistics: bool,
     /// Columns to bring to the host.
     pub columns: Vec<Column>,
@@ -124,7 +124,17 @@ impl Plan {
 
         let obstacles = Obstacles::new(scene);
         let search = neighbors::plan(scene, grid, &mut variant);
-        let solver = dem::plan(scene, &obstacles, &columns, wanted.statistics, &mut variant);
+        let solver = match &scene.matter {
+            Matter::Grains(grains) => dem::plan(
+                scene,
+                grains,
+                &obstacles,
+                &columns,
+                wanted.statistics,
+                &mut variant,
+            ),
+            Matter::Fluid(fluid) => fluid::plan(scene, fluid, &columns, wanted.statistics, &mut variant),
+        };
 
         let [start, step] = if neighbors::lists::wanted(scene) {
             neighbors::lists::phases(&search, &solver.before_search, &solver.after_search)
@@ -410,7 +420,7 @@ fn state_buffers(scene: &Scene) -> Vec<BufferPlan> {
     ]
 }
 
-/// Buffers and passes of the figures over all grains and voxels.
+/// Buffers and passes of the figures over all particles and voxels.
 fn statistics(scene: &Scene) -> (Vec<BufferPlan>, Vec<PassPlan>) {
     let groups = u64::from(scene.capacity.div_ceil(GROUP_SIZE));
     let sums = Sums::LAYOUT.size as u64;
@@ -421,7 +431,7 @@ fn statistics(scene: &Scene) -> (Vec<BufferPlan>, Vec<PassPlan>) {
             sums,
             "sums of workgroups, added in a fixed order",
         ),
-        BufferPlan::storage("sums", 1, sums, "energies, greatest speed and overlap, contacts"),
+        BufferPlan::storage("sums", 1, sums, "figures over all particles"),
         BufferPlan::storage(
             "occupancy_count",
             1,

@@ -196,7 +196,7 @@ impl Sight {
     /// Near and far planes around everything that is drawn.
     fn clip(&mut self, scene: &Scene) {
         let (low, high) = bounds(scene);
-        let drawn = scene.grains.radius * scene.render.splat_scale;
+        let drawn = scene.radius() * scene.render.splat_scale;
         let radius = (high - low).length() * 0.5 + 2.0 * drawn;
         let ahead = ((low + high) * 0.5 - self.eye).dot(self.forward);
         let nearest = if self.perspective {

@@ -28,7 +28,7 @@ impl Light {
         let (right, up) = toward.any_orthonormal_pair();
         let (low, high) = bounds(scene);
         let center = (low + high) * 0.5;
-        let pad = 2.0 * scene.grains.radius * scene.render.splat_scale;
+        let pad = 2.0 * scene.radius() * scene.render.splat_scale;
         let mut half = 0.0_f64;
         let mut reach = 0.0_f64;
         for corner in corners(low, high) {

@@ -35,7 +35,7 @@ impl Style {
         let drawn = view != View::Pool;
         let three_dimensional = scene.dimensions == Dimensions::Three;
         let spheres = render.splat == Splat::Sphere;
-        let radius = scene.grains.radius * render.splat_scale;
+        let radius = scene.radius() * render.splat_scale;
         let layout = Layout::new(scene, view);
         let round_shadows = layout.scene.is_some_and(|place| {
             let sight = Sight::new(scene, [place.width, place.height], layout.insets, 0.0);

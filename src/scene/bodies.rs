@@ -7,6 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::fit::{self, Grains, Placed};
+use super::fluid;
 use super::frame::{Frame, Report};
 use super::mesh::Mesh;
 use super::model::{self, Arrangement, Body, SceneFile, Shape};
@@ -26,7 +27,7 @@ pub fn fill(
     folder: &Path,
     report: &mut Report,
 ) -> Particles {
-    let radius = file.grains.radius;
+    let radius = file.radius();
     let mut placed = Placed::new(2.0 * radius);
     let mut particles = Particles::default();
     for (i, body) in file.bodies.iter().enumerate() {
@@ -51,11 +52,63 @@ pub fn fill(
         particles
             .position
             .extend(grains.position.iter().map(|p| p.as_vec3()));
+        if let Some(fluid) = &file.fluid {
+            fill_fluid(
+                &path,
+                body,
+                fluid,
+                &grains.position,
+                file,
+                frame,
+                &mut particles,
+                report,
+            );
+        }
+        let flow = |p: &DVec3| match &body.flow {
+            Some(flow) => fluid::flow_at(flow, frame.dimensions, *p + frame.origin).0,
+            None => DVec3::ZERO,
+        };
+        let velocity = grains.velocity.iter().zip(&grains.position);
         particles
             .velocity
-            .extend(grains.velocity.iter().map(|v| v.as_vec3()));
+            .extend(velocity.map(|(v, p)| (*v + flow(p)).as_vec3()));
     }
     particles
+}
+
+/// What a fluid's particles have besides: their pressure at the start, which becomes a density when the fluid's speed
+/// of sound is known, and their material.
+#[allow(clippy::too_many_arguments)]
+fn fill_fluid(
+    path: &str,
+    body: &Body,
+    fluid: &model::Fluid,
+    positions: &[DVec3],
+    file: &SceneFile,
+    frame: &Frame,
+    particles: &mut Particles,
+    report: &mut Report,
+) {
+    let material = fluid::material(
+        &format!("{path}.material"),
+        body.material.as_deref(),
+        file,
+        report,
+    );
+    let density = fluid
+        .materials
+        .get(material as usize)
+        .map_or(fluid.density, |m| m.density);
+    let gravity = DVec3::new(
+        file.gravity.0[0],
+        file.gravity.0[1],
+        file.gravity.0.get(2).copied().unwrap_or(0.0),
+    );
+    let pressures = fluid::start_pressures(body, positions, density, gravity, frame, fluid.spacing);
+    particles.excess.extend(pressures.iter().map(|&p| p as f32));
+    if !fluid.materials.is_empty() {
+        particles.material.extend(positions.iter().map(|_| material));
+    }
 }
 
 fn grains(
@@ -73,7 +126,7 @@ fn grains(
         frame.dimensions,
     );
     let shape = format!("{path}.shape");
-    let radius = file.grains.radius;
+    let radius = file.radius();
     if let Shape::Particles { file, placement } = &body.shape {
         if body.spacing.is_some() || body.jitter != 0.0 || body.arrangement != Arrangement::default() {
             report.problem(

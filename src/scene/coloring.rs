@@ -90,9 +90,10 @@ fn default_range(column: &str, known: &Known) -> [f64; 2] {
         "id" => [0.0, f64::from(known.capacity.max(2) - 1)],
         // Grains of one size touch at most six others in a plane, twelve in space.
         "contacts" => [0.0, if dimensions == 2 { 6.0 } else { 12.0 }],
-        "density" => [0.0, file.grains.density],
+        "density" if file.fluid.is_some() => [0.97 * file.density(), 1.03 * file.density()],
+        "density" => [0.0, file.density()],
         // That at the bottom of a heap as high as the domain.
-        "pressure" if known.gravity > 0.0 => [0.0, file.grains.density * known.gravity * height],
+        "pressure" if known.gravity > 0.0 => [0.0, file.density() * known.gravity * height],
         "pressure" => [0.0, 1e3],
         "slice" => {
             let extent = frame.max - frame.min;
@@ -103,8 +104,8 @@ fn default_range(column: &str, known: &Known) -> [f64; 2] {
                 None => extent.max_element(),
             };
             let voxel = match file.neighbors.cell {
-                Cell::Radius => 2.0 * file.grains.radius,
-                Cell::Half => file.grains.radius,
+                Cell::Radius => 2.0 * file.radius(),
+                Cell::Half => file.radius(),
             };
             [0.0, (along / voxel - 1e-6).ceil().max(1.0)]
         }

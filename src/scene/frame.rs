@@ -74,9 +74,22 @@ impl Frame {
             2 => Dimensions::Two,
             _ => Dimensions::Three,
         };
+        match (&file.grains, &file.fluid) {
+            (None, None) => report.problem(
+                "",
+                "the scene has neither `grains` nor a `fluid`",
+                "say what the particles are: add one of them",
+            ),
+            (Some(_), Some(_)) => report.problem(
+                "fluid",
+                "the scene has `grains` too, and both cannot be in one scene",
+                "remove one of them",
+            ),
+            _ => {}
+        }
         let low = report.vector("domain.min", &file.domain.min, dimensions);
         let high = report.vector("domain.max", &file.domain.max, dimensions);
-        let diameter = 2.0 * file.grains.radius;
+        let diameter = 2.0 * file.radius();
         for (axis, name) in AXES.iter().enumerate().take(dimensions.count()) {
             let width = high[axis] - low[axis];
             if width <= 0.0 {
@@ -93,11 +106,11 @@ impl Frame {
                 report.problem(
                     "domain",
                     format!(
-                        "{} m wide along {name}, less than two grain diameters",
+                        "{} m wide along {name}, less than two particle diameters",
                         number(width)
                     ),
                     format!(
-                        "make it at least {} m wide, or grains.radius smaller",
+                        "make it at least {} m wide, or the particles smaller",
                         number(2.0 * diameter)
                     ),
                 );
@@ -109,7 +122,7 @@ impl Frame {
             min: DVec3::ZERO,
             max: DVec3::ZERO,
             sides: sides(file, dimensions, report),
-            quanta_per_metre: 10f64.powi(7 - file.grains.radius.log10().floor() as i32),
+            quanta_per_metre: 10f64.powi(7 - file.radius().log10().floor() as i32),
         };
         frame.min = frame.local(low);
         frame.max = frame.local(high);
@@ -153,10 +166,44 @@ fn sides(file: &SceneFile, dimensions: Dimensions, report: &mut Report) -> [[Wal
             "remove `z_min` and `z_max`",
         );
     }
-    let or_all = |side: Option<Wall>| side.unwrap_or(file.domain.walls);
-    [
+    let usual = match file.fluid {
+        Some(_) => Wall::Particles,
+        None => Wall::Contact,
+    };
+    let or_all = |side: Option<Wall>| side.or(file.domain.walls).unwrap_or(usual);
+    let mut sides = [
         [or_all(named.x_min), or_all(named.x_max)],
         [or_all(named.y_min), or_all(named.y_max)],
         [or_all(named.z_min), or_all(named.z_max)],
-    ]
+    ];
+    for (axis, sides) in sides.iter_mut().enumerate() {
+        if axis >= dimensions.count() {
+            // Nothing moves along z in 2D.
+            *sides = sides.map(|side| if side == Wall::Open { side } else { usual });
+            continue;
+        }
+        for (end, &side) in ["min", "max"].iter().zip(&*sides) {
+            let of_grains = matches!(side, Wall::Contact | Wall::Clamp);
+            let of_fluids = matches!(side, Wall::Particles | Wall::Periodic);
+            if of_grains && file.fluid.is_some() || of_fluids && file.grains.is_some() {
+                let (matter, mend) = match file.fluid {
+                    Some(_) => ("a fluid", "choose `particles`, `open` or `periodic`"),
+                    None => ("grains", "choose `contact`, `clamp` or `open`"),
+                };
+                report.problem(
+                    format!("domain.sides.{}_{end}", AXES[axis]),
+                    format!("{matter} cannot have this kind of wall"),
+                    mend,
+                );
+            }
+        }
+        if (sides[0] == Wall::Periodic) != (sides[1] == Wall::Periodic) {
+            report.problem(
+                "domain.sides",
+                format!("only one of the two {} sides is periodic", AXES[axis]),
+                "make both periodic, or none",
+            );
+        }
+    }
+    sides
 }

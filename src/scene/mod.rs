@@ -11,6 +11,7 @@ pub mod column;
 mod contact;
 mod emission;
 mod fit;
+pub mod fluid;
 mod frame;
 pub mod import;
 mod json;
@@ -31,6 +32,7 @@ mod text;
 mod time;
 mod validate;
 mod vtp;
+pub mod walls;
 
 use std::path::PathBuf;
 
@@ -38,6 +40,8 @@ use glam::{DVec3, Vec3};
 use model::{Addressing, Cell, Dashpot, Integrator, Render, SceneFile, SlicingAxis, Storage, Wall};
 
 use column::Column;
+use fluid::Fluid;
+use walls::Walls;
 
 /// A validated scene. Nothing after `scene::load` asks again whether a number makes sense.
 #[derive(Debug, Clone)]
@@ -50,10 +54,12 @@ pub struct Scene {
     pub origin: DVec3,
     pub domain: Domain,
     pub gravity: Vec3,
-    pub grains: Grains,
-    /// Grains that are there from the start; ids 0, 1, 2, … in this order.
+    pub matter: Matter,
+    /// Particles that are there from the start; ids 0, 1, 2, … in this order.
     pub particles: Particles,
-    /// Particles on the device when every event has happened.
+    /// Boundary particles of a fluid; their ids follow those of all others.
+    pub walls: Walls,
+    /// Particles on the device when every event has happened, boundary particles included.
     pub capacity: u32,
     pub colliders: Vec<Collider>,
     /// What happens during the run, by time.
@@ -66,6 +72,50 @@ pub struct Scene {
     /// What was decided or dropped on the way (overlaps removed, say); told to the user.
     pub notes: Vec<String>,
     pub written: Written,
+}
+
+impl Scene {
+    /// Of a particle, metres: a grain's, or half the distance of a fluid's particles.
+    pub fn radius(&self) -> f64 {
+        match &self.matter {
+            Matter::Grains(grains) => grains.radius,
+            Matter::Fluid(fluid) => fluid.spacing / 2.0,
+        }
+    }
+
+    /// How far neighbors are searched, metres.
+    pub fn search_radius(&self) -> f64 {
+        match &self.matter {
+            Matter::Grains(grains) => 2.0 * grains.radius,
+            Matter::Fluid(fluid) => fluid.support,
+        }
+    }
+
+    pub fn grains(&self) -> Option<&Grains> {
+        match &self.matter {
+            Matter::Grains(grains) => Some(grains),
+            Matter::Fluid(_) => None,
+        }
+    }
+
+    pub fn fluid(&self) -> Option<&Fluid> {
+        match &self.matter {
+            Matter::Grains(_) => None,
+            Matter::Fluid(fluid) => Some(fluid),
+        }
+    }
+
+    /// Where ids of boundary particles begin.
+    pub fn first_wall(&self) -> u32 {
+        self.capacity - self.walls.len() as u32
+    }
+}
+
+/// What the particles are.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Matter {
+    Grains(Grains),
+    Fluid(Fluid),
 }
 
 /// What a scene was loaded from: loading it again gives the same scene, to the bit.
@@ -107,6 +157,15 @@ pub struct Domain {
 }
 
 impl Domain {
+    /// Lengths after which space repeats, metres; zero along directions without periodic sides.
+    pub fn period(&self) -> Vec3 {
+        let of = |axis: usize| match self.sides[axis] {
+            [Wall::Periodic, _] => self.max[axis] - self.min[axis],
+            _ => 0.0,
+        };
+        Vec3::from([0, 1, 2].map(of))
+    }
+
     /// Whether particles may leave it.
     pub fn is_open(&self) -> bool {
         self.sides.iter().flatten().any(|&side| side == Wall::Open)
@@ -146,6 +205,10 @@ pub struct Contact {
 pub struct Particles {
     pub position: Vec<Vec3>,
     pub velocity: Vec<Vec3>,
+    /// Of a fluid: (ρ/ρ₀) − 1 at the start. Empty for grains.
+    pub excess: Vec<f32>,
+    /// Of several fluids: index into their materials. Empty for one.
+    pub material: Vec<u32>,
 }
 
 impl Particles {
@@ -160,6 +223,8 @@ impl Particles {
     pub fn append(&mut self, mut other: Particles) {
         self.position.append(&mut other.position);
         self.velocity.append(&mut other.velocity);
+        self.excess.append(&mut other.excess);
+        self.material.append(&mut other.material);
     }
 }
 
@@ -205,7 +270,11 @@ pub struct Scheduled {
 #[derive(Debug, Clone)]
 pub enum Action {
     /// From now on these hold.
-    SetParameters { gravity: Vec3, contact: Contact },
+    SetParameters {
+        gravity: Vec3,
+        /// Of grains.
+        contact: Option<Contact>,
+    },
     /// New particles; their ids follow those that exist.
     Add(Particles),
 }
@@ -269,8 +338,8 @@ pub struct Time {
     pub step: f64,
     pub steps_per_frame: u32,
     pub integrator: Integrator,
-    /// Seconds that the shortest contact of the run lasts.
-    pub contact_duration: f64,
+    /// Seconds that the shortest contact of grains lasts.
+    pub contact_duration: Option<f64>,
     /// What limits the step, in words.
     pub limited_by: &'static str,
 }

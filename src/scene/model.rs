@@ -3,11 +3,15 @@
 //! These types carry no decisions. The JSON schema (`sliceflow schema`) is derived from them, `check` walks a
 //! file against that schema and collects every mistake, and `validate` turns the result into a [`super::Scene`].
 
+mod fluid;
 mod render;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use fluid::{
+    DensityFrom, Fluid, FluidSolver, Kernel, Material, NegativePressure, PressureForce, Slip, ViscosityForm,
+};
 pub use render::{Background, Camera, Color, Projection, Render, Show, Splat, View};
 
 /// A point, direction or velocity: two numbers in a 2D scene, three in a 3D scene. SI units, y up, right-handed.
@@ -15,7 +19,7 @@ pub use render::{Background, Camera, Color, Projection, Render, Show, Splat, Vie
 #[serde(transparent)]
 pub struct Coordinates(#[schemars(length(min = 2, max = 3))] pub Vec<f64>);
 
-/// A scene of grains in a box, from which frames are made.
+/// A scene of grains or of a fluid in a box, from which frames are made.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
@@ -42,7 +46,11 @@ pub struct SceneFile {
     /// Metres per second squared.
     #[serde(default = "earth")]
     pub gravity: Coordinates,
-    pub grains: Grains,
+    /// What the particles are: grains, or a fluid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grains: Option<Grains>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fluid: Option<Fluid>,
     #[serde(default)]
     pub bodies: Vec<Body>,
     #[serde(default)]
@@ -60,6 +68,24 @@ pub struct SceneFile {
 }
 
 impl SceneFile {
+    /// Of a particle, metres: a grain's radius, or half the distance of a fluid's particles.
+    pub fn radius(&self) -> f64 {
+        match (&self.grains, &self.fluid) {
+            (Some(grains), _) => grains.radius,
+            (None, Some(fluid)) => fluid.spacing / 2.0,
+            (None, None) => 0.0,
+        }
+    }
+
+    /// kg/m³, of a grain's material or the fluid at rest.
+    pub fn density(&self) -> f64 {
+        match (&self.grains, &self.fluid) {
+            (Some(grains), _) => grains.density,
+            (None, Some(fluid)) => fluid.density,
+            (None, None) => 0.0,
+        }
+    }
+
     /// Paths of the meshes and particle files that the scene names, as it writes them.
     pub fn files(&self) -> Vec<&str> {
         let bodies = self.bodies.iter().filter_map(|body| match &body.shape {
@@ -87,7 +113,7 @@ fn earth() -> Coordinates {
     Coordinates(vec![0.0, -9.81, 0.0])
 }
 
-/// The box that the grains live in, and what its sides do.
+/// The box that the particles live in, and what its sides do.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Domain {
@@ -95,9 +121,9 @@ pub struct Domain {
     pub min: Coordinates,
     /// Upper corner, metres.
     pub max: Coordinates,
-    /// What all sides do, unless `sides` names one.
-    #[serde(default)]
-    pub walls: Wall,
+    /// What all sides do, unless `sides` names one; `contact` for grains and `particles` for fluids when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub walls: Option<Wall>,
     /// Sides that differ from `walls`.
     #[serde(default)]
     pub sides: Sides,
@@ -105,6 +131,41 @@ pub struct Domain {
     #[serde(default = "half")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub restitution: f64,
+    /// Velocity of a side's surface, which itself stays where it is, m/s: a lid that drives the fluid.
+    #[serde(default, skip_serializing_if = "SideVelocities::is_empty")]
+    pub side_velocities: SideVelocities,
+}
+
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SideVelocities {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x_min: Option<Coordinates>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x_max: Option<Coordinates>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y_min: Option<Coordinates>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y_max: Option<Coordinates>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z_min: Option<Coordinates>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z_max: Option<Coordinates>,
+}
+
+impl SideVelocities {
+    /// `[axis][end]`, with the side's name.
+    pub fn all(&self) -> [[(&'static str, Option<&Coordinates>); 2]; 3] {
+        [
+            [("x_min", self.x_min.as_ref()), ("x_max", self.x_max.as_ref())],
+            [("y_min", self.y_min.as_ref()), ("y_max", self.y_max.as_ref())],
+            [("z_min", self.z_min.as_ref()), ("z_max", self.z_max.as_ref())],
+        ]
+    }
+
+    fn is_empty(&self) -> bool {
+        self.all().iter().flatten().all(|(_, given)| given.is_none())
+    }
 }
 
 fn half() -> f64 {
@@ -112,16 +173,19 @@ fn half() -> f64 {
 }
 
 /// What a side of the domain does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Wall {
-    /// Pushes back with the same contact law as between grains.
-    #[default]
+    /// Pushes back with the same contact law as between grains. For grains.
     Contact,
-    /// Moves the grain back to the wall and reverses its normal speed, times `restitution` (Green 2012).
+    /// Moves the grain back to the wall and reverses its normal speed, times `restitution` (Green 2012). For grains.
     Clamp,
-    /// Lets grains leave.
+    /// Layers of particles beyond the side that carry the fluid's pressure and velocity on (Adami 2012). For fluids.
+    Particles,
+    /// Lets particles leave.
     Open,
+    /// What leaves here comes in at the opposite side, which has to be periodic too. For fluids.
+    Periodic,
 }
 
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
@@ -203,6 +267,15 @@ pub struct Body {
     /// Metres per second; zero when left out. A particle file's own velocities are added to it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub velocity: Option<Coordinates>,
+    /// A flow of known form, added to `velocity`; for fluids.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flow: Option<Flow>,
+    /// Pressure at the start; for fluids whose density follows `continuity`.
+    #[serde(default)]
+    pub pressure: StartPressure,
+    /// One of `fluid.materials`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
     #[serde(default)]
     pub arrangement: Arrangement,
     /// Distance of neighbors on the lattice, metres; a grain's diameter when left out.
@@ -231,6 +304,32 @@ pub enum Arrangement {
     Lattice,
     /// Random points no nearer than a diameter (random sequential addition), seeded.
     Random,
+}
+
+/// A flow with which a fluid begins.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Flow {
+    /// Vortices that decay (Taylor and Green 1937), with their pressure; in 3D those of Brachet 1983.
+    TaylorGreen {
+        /// Fastest speed, m/s.
+        #[schemars(range(min = 0.0, max = 1e9))]
+        speed: f64,
+        /// Distance after which the flow repeats, metres.
+        #[schemars(range(min = 1e-9, max = 1e6))]
+        wavelength: f64,
+    },
+}
+
+/// Pressure of a body at the start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StartPressure {
+    /// That at rest density, and that of the body's `flow`.
+    #[default]
+    Rest,
+    /// Grows with the depth below the body's highest point.
+    Hydrostatic,
 }
 
 /// Where a body's grains are.
@@ -311,6 +410,11 @@ pub struct Collider {
     /// Piecewise linear motion; before the first and after the last point it rests.
     #[serde(default)]
     pub path: Vec<PathPoint>,
+    /// How its surface turns about the shape's center while the shape stays where it is, rad/s, counter-clockwise
+    /// (about z in 3D); for spheres in fluids.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -1e9, max = 1e9))]
+    pub spin: Option<f64>,
     /// `#rrggbb`.
     #[serde(default = "steel")]
     pub color: String,
@@ -378,6 +482,9 @@ pub struct Emitter {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-9, max = 1e6))]
     pub spacing: Option<f64>,
+    /// One of `fluid.materials`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
     /// Whether it flows from the start; events switch it.
     #[serde(default = "yes")]
     pub on: bool,
@@ -433,6 +540,24 @@ pub struct Change {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub global_damping: Option<f64>,
+}
+
+impl Change {
+    /// Whether it says how grains touch.
+    pub fn changes_contacts(&self) -> bool {
+        let Self {
+            gravity: _,
+            spring,
+            damping,
+            restitution,
+            shear,
+            attraction,
+            global_damping,
+        } = self;
+        [spring, damping, restitution, shear, attraction, global_damping]
+            .iter()
+            .any(|given| given.is_some())
+    }
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]

@@ -239,6 +239,18 @@ impl<'a> Obstacle<'a> {
         }
     }
 
+    /// Whether a point inside is at least `depth` below the surface of a plane or mesh.
+    pub fn is_deeper(&self, point: DVec3, depth: f64) -> bool {
+        match self.shape {
+            ColliderShape::Plane { .. } => self.touches(point, -depth),
+            ColliderShape::Mesh(_) => self
+                .surface
+                .as_ref()
+                .is_some_and(|surface| surface.distance(point, depth) >= depth),
+            _ => false,
+        }
+    }
+
     /// Whether a ball of radius `reach` touches it, or lies inside.
     pub fn touches(&self, center: DVec3, reach: f64) -> bool {
         match self.shape {

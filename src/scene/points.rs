@@ -5,7 +5,9 @@ use serde_json::json;
 
 use super::bodies::MOST_PARTICLES;
 use super::model::{Dashpot, Integrator, Render, Wall};
-use super::{Coloring, Contact, Dimensions, Domain, Grains, Neighbors, Particles, Scene, Time, column};
+use super::{
+    Coloring, Contact, Dimensions, Domain, Grains, Matter, Neighbors, Particles, Scene, Time, column,
+};
 use crate::error::{Error, Result};
 
 /// Search radii, in the points' unit: their squares stay far inside f32.
@@ -82,15 +84,17 @@ impl Scene {
                 restitution: 0.0,
             },
             gravity: Vec3::ZERO,
-            grains: Grains {
+            matter: Matter::Grains(Grains {
                 radius,
                 mass: 1.0,
                 contact: NO_CONTACT,
-            },
+            }),
             particles: Particles {
                 position: points.iter().map(|p| (flat(p) - origin).as_vec3()).collect(),
                 velocity: vec![Vec3::ZERO; points.len()],
+                ..Particles::default()
             },
+            walls: Default::default(),
             capacity: points.len() as u32,
             colliders: Vec::new(),
             schedule: Vec::new(),
@@ -106,7 +110,7 @@ impl Scene {
                 step: 1.0,
                 steps_per_frame: 1,
                 integrator: Integrator::default(),
-                contact_duration: 1.0,
+                contact_duration: None,
                 limited_by: "nothing moves",
             },
             render: Render::default(),
@@ -184,7 +188,7 @@ mod tests {
         assert_eq!(near.particles, far.particles);
         assert_eq!(far.origin, DVec3::new(1e6 + 0.5, -1e6 + 1.0, 1e6 + 0.25));
         assert_eq!(far.domain.max, Vec3::new(0.5, 1.0, 0.25));
-        assert_eq!(far.grains.radius, 0.25);
+        assert_eq!(far.radius(), 0.25);
         assert!(far.notes.is_empty());
     }
 

@@ -7,6 +7,7 @@ use rand_chacha::rand_core::SeedableRng;
 use super::bodies::MOST_PARTICLES;
 use super::contact::Law;
 use super::emission;
+use super::fluid;
 use super::frame::{Frame, Report};
 use super::model::{Emitter, Event, SceneFile};
 use super::motion::{self, Shift};
@@ -28,7 +29,7 @@ pub struct Schedule {
 pub fn schedule(
     file: &SceneFile,
     frame: &Frame,
-    law: Law,
+    law: Option<Law>,
     mass: f64,
     end: f64,
     colliders: &mut [Collider],
@@ -75,7 +76,7 @@ struct Unroll<'a> {
     file: &'a SceneFile,
     frame: &'a Frame,
     mass: f64,
-    law: Law,
+    law: Option<Law>,
     gravity: DVec3,
     actions: Vec<Scheduled>,
     contacts: Vec<Contact>,
@@ -105,15 +106,24 @@ impl Unroll<'_> {
         let act = |action: Action| Scheduled { time, action };
         if let Some(change) = &event.set {
             let place = format!("{path}.set");
-            let law = self.law.changed(&place, change, report);
+            let law = match self.law {
+                Some(law) => Some(law.changed(&place, change, report)),
+                None => {
+                    if change.changes_contacts() {
+                        let mend = "a fluid has no contacts: only `gravity` can change";
+                        report.problem(&place, "changes how grains touch", mend);
+                    }
+                    None
+                }
+            };
             let gravity = match &change.gravity {
                 Some(gravity) => report.vector(&format!("{place}.gravity"), gravity, self.frame.dimensions),
                 None => self.gravity,
             };
             if happens {
                 (self.law, self.gravity) = (law, gravity);
-                let contact = law.contact(self.mass);
-                self.contacts.push(contact);
+                let contact = law.map(|law| law.contact(self.mass));
+                self.contacts.extend(contact);
                 let gravity = gravity.as_vec3();
                 self.actions.push(act(Action::SetParameters { gravity, contact }));
             }
@@ -172,7 +182,7 @@ impl Unroll<'_> {
             self.frame.dimensions,
         );
         self.check_inside(path, "the ball", center, DVec3::splat(drop.radius), report);
-        let grain = self.file.grains.radius;
+        let grain = self.file.radius();
         let count = (drop.radius / grain).powi(self.frame.dimensions.count() as i32);
         if count > MOST_PARTICLES as f64 {
             report.problem(
@@ -200,7 +210,7 @@ impl Unroll<'_> {
             report.problem(format!("{path}.radius"), "not one grain fits", least);
             return None;
         }
-        Some(batch(&points, velocity))
+        Some(self.batch(&points, velocity, 0))
     }
 
     fn emitter(&mut self, index: usize, emitter: &Emitter, end: f64, report: &mut Report) {
@@ -227,7 +237,7 @@ impl Unroll<'_> {
             );
             return;
         };
-        let grain = self.file.grains.radius;
+        let grain = self.file.radius();
         let spacing = emitter.spacing.unwrap_or(DEFAULT_SPACING_RADII * grain);
         if spacing < 2.0 * grain * (1.0 - 1e-9) {
             report.problem(
@@ -257,6 +267,12 @@ impl Unroll<'_> {
             }
             points => points,
         };
+        let material = fluid::material(
+            &format!("{path}.material"),
+            emitter.material.as_deref(),
+            self.file,
+            report,
+        );
         let every = spacing / velocity.length();
         let flows = emission::flows(emitter.on, &self.switches[index], end);
         let layers = |(from, to): &(f64, f64)| ((to - from) / every - 1e-9).ceil();
@@ -273,9 +289,30 @@ impl Unroll<'_> {
             for n in 0..layers(flow) as u32 {
                 self.actions.push(Scheduled {
                     time: flow.0 + f64::from(n) * every,
-                    action: Action::Add(batch(&points, velocity)),
+                    action: Action::Add(self.batch(&points, velocity, material)),
                 });
             }
+        }
+    }
+
+    fn batch(&self, points: &[DVec3], velocity: DVec3, material: u32) -> Particles {
+        let (fluid, several) = match &self.file.fluid {
+            Some(fluid) => (true, !fluid.materials.is_empty()),
+            None => (false, false),
+        };
+        Particles {
+            position: points.iter().map(|point| point.as_vec3()).collect(),
+            velocity: vec![velocity.as_vec3(); points.len()],
+            excess: if fluid {
+                vec![0.0; points.len()]
+            } else {
+                Vec::new()
+            },
+            material: if several {
+                vec![material; points.len()]
+            } else {
+                Vec::new()
+            },
         }
     }
 
@@ -284,7 +321,7 @@ impl Unroll<'_> {
             let below = self.frame.min[axis] - (center - extent)[axis];
             let above = (center + extent)[axis] - self.frame.max[axis];
             let beyond = below.max(above);
-            if beyond > self.file.grains.radius * 1e-3 {
+            if beyond > self.file.radius() * 1e-3 {
                 report.problem(
                     path,
                     format!(
@@ -295,13 +332,6 @@ impl Unroll<'_> {
                 );
             }
         }
-    }
-}
-
-fn batch(points: &[DVec3], velocity: DVec3) -> Particles {
-    Particles {
-        position: points.iter().map(|point| point.as_vec3()).collect(),
-        velocity: vec![velocity.as_vec3(); points.len()],
     }
 }
 

@@ -1,5 +1,6 @@
 //! Frames and the time step.
 
+use super::fluid::Fluid;
 use super::frame::Report;
 use super::text::number;
 use super::{Contact, Time, model};
@@ -28,7 +29,13 @@ pub fn frames(time: &model::Time, report: &mut Report) -> u32 {
 }
 
 /// The step that resolves each of `contacts` (those that hold at any time of the run) and fits frames.
-pub fn time(time: &model::Time, frames: u32, contacts: &[Contact], mass: f64, report: &mut Report) -> Time {
+pub fn of_grains(
+    time: &model::Time,
+    frames: u32,
+    contacts: &[Contact],
+    mass: f64,
+    report: &mut Report,
+) -> Time {
     let shortest = contacts
         .iter()
         .map(|contact| contact.duration(mass))
@@ -63,6 +70,44 @@ pub fn time(time: &model::Time, frames: u32, contacts: &[Contact], mass: f64, re
             ));
         }
     }
+    let mend = "raise `fps`, make grains.spring softer, or lower grains.damping and grains.shear";
+    Time {
+        contact_duration: Some(shortest),
+        ..fit_frames(time, frames, step, limited_by, mend, report)
+    }
+}
+
+/// The step that a fluid's sound, viscosity and weight allow, and fits frames.
+pub fn of_fluid(time: &model::Time, frames: u32, fluid: &Fluid, gravity: f64, report: &mut Report) -> Time {
+    let limits = fluid.step_limits(gravity);
+    let (shortest, limit) = limits
+        .into_iter()
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .expect("there are three limits");
+    let (step, limited_by) = match time.step {
+        Some(step) => (step, "scene's step"),
+        None => (shortest, limit),
+    };
+    if step > shortest * (1.0 + 1e-9) {
+        report.notes.push(format!(
+            "time.step {} s is longer than the {} s that the {limit} allows: the run may blow up",
+            number(step),
+            number(shortest)
+        ));
+    }
+    let mend = "raise `fps`, lower fluid.sound_speed, or raise fluid.spacing";
+    fit_frames(time, frames, step, limited_by, mend, report)
+}
+
+/// A whole number of steps no longer than `step` makes one frame.
+fn fit_frames(
+    time: &model::Time,
+    frames: u32,
+    step: f64,
+    limited_by: &'static str,
+    mend: &str,
+    report: &mut Report,
+) -> Time {
     let frame = 1.0 / time.fps;
     let steps_per_frame = (frame / step * (1.0 - 1e-12)).ceil();
     if steps_per_frame > MOST_STEPS_PER_FRAME {
@@ -73,7 +118,7 @@ pub fn time(time: &model::Time, frames: u32, contacts: &[Contact], mass: f64, re
                 number(steps_per_frame),
                 number(step)
             ),
-            "raise `fps`, make grains.spring softer, or lower grains.damping and grains.shear",
+            mend,
         );
     }
     Time {
@@ -82,7 +127,7 @@ pub fn time(time: &model::Time, frames: u32, contacts: &[Contact], mass: f64, re
         step: frame / steps_per_frame,
         steps_per_frame: steps_per_frame as u32,
         integrator: time.integrator,
-        contact_duration: shortest,
+        contact_duration: None,
         limited_by,
     }
 }

@@ -8,10 +8,14 @@ use glam::DVec3;
 use super::bodies::{self, MOST_PARTICLES};
 use super::coloring::{self, Known};
 use super::contact::Law;
+use super::fluid::{Fluid, Speeds};
 use super::frame::{Frame, Report};
-use super::model::{Addressing, Render, SceneFile, SlicingAxis};
+use super::model::{Addressing, DensityFrom, Render, SceneFile, SlicingAxis, StartPressure, Storage, Wall};
 use super::text::number;
-use super::{Action, Dimensions, Grains, Neighbors, Scene, Written, obstacles, schedule, time};
+use super::walls::{self, Walls};
+use super::{
+    Action, Dimensions, Grains, Matter, Neighbors, Particles, Scene, Written, obstacles, schedule, time,
+};
 use crate::error::Problem;
 
 /// Checks what the schema cannot say, completes what was left out, and turns the rest into numbers. Files named in
@@ -23,21 +27,60 @@ pub(super) fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Prob
         // Without a sound domain, what follows would only repeat its problems.
         return Err(report.problems);
     }
-    let law = Law::new(&file.grains, &mut report);
+    let law = file.grains.as_ref().map(|grains| Law::new(grains, &mut report));
     let mass = mass(&file, frame.dimensions);
     let mut colliders = obstacles::colliders(&file, &frame, folder, &mut report);
     // When a collider is missing for its own mistake, the others' places in the list no longer name them.
     let all_sound = colliders.len() == file.colliders.len();
     let obstacles = if all_sound { &colliders[..] } else { &[] };
-    let particles = bodies::fill(&file, &frame, obstacles, folder, &mut report);
+    let mut particles = bodies::fill(&file, &frame, obstacles, folder, &mut report);
     let frames = time::frames(&file.time, &mut report);
     let end = f64::from(frames - 1) / file.time.fps;
     let schedule = schedule::schedule(&file, &frame, law, mass, end, &mut colliders, &mut report);
-    let mut contacts = vec![law.contact(mass)];
-    contacts.extend(&schedule.contacts);
-    let time = time::time(&file.time, frames, &contacts, mass, &mut report);
-    let capacity = capacity(&file, particles.len(), &schedule.actions, &mut report);
     let gravity = vector(&file.gravity.0);
+    let contacts: Vec<_> = law
+        .iter()
+        .map(|law| law.contact(mass))
+        .chain(schedule.contacts)
+        .collect();
+    let mut walls = Walls::default();
+    let (matter, time) = match (&file.grains, &file.fluid) {
+        (Some(given), _) => {
+            let grains = Grains {
+                radius: given.radius,
+                mass,
+                contact: contacts[0],
+            };
+            (
+                Matter::Grains(grains),
+                time::of_grains(&file.time, frames, &contacts, mass, &mut report),
+            )
+        }
+        (None, given) => {
+            let given = given
+                .as_ref()
+                .expect("the frame checks that the scene has grains or a fluid");
+            let speeds = Speeds {
+                particles: &particles,
+                gravity,
+                walls: fastest_wall(&file, &colliders),
+            };
+            let fluid = Fluid::new(given, &frame, &speeds, &mut report);
+            start(&file, &fluid, &mut particles, &mut report);
+            if all_sound {
+                walls = walls::sample(&file, &frame, &colliders, fluid.support, &mut report);
+            }
+            let time = time::of_fluid(&file.time, frames, &fluid, gravity.length(), &mut report);
+            (Matter::Fluid(fluid), time)
+        }
+    };
+    let capacity = capacity(
+        &file,
+        particles.len(),
+        walls.len(),
+        &schedule.actions,
+        &mut report,
+    );
     let neighbors = neighbors(&file, &frame, &mut report);
     let render = render(&file, &frame, &mut report);
     let known = Known {
@@ -55,12 +98,9 @@ pub(super) fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Prob
             origin: frame.origin,
             domain: frame.domain(file.domain.restitution),
             gravity: gravity.as_vec3(),
-            grains: Grains {
-                radius: file.grains.radius,
-                mass,
-                contact: contacts[0],
-            },
+            matter,
             particles,
+            walls,
             capacity,
             colliders,
             schedule: schedule.actions,
@@ -80,10 +120,61 @@ fn vector(numbers: &[f64]) -> DVec3 {
     DVec3::new(numbers[0], numbers[1], numbers.get(2).copied().unwrap_or(0.0))
 }
 
+/// The fastest surface or obstacle, m/s.
+fn fastest_wall(file: &SceneFile, colliders: &[super::Collider]) -> f64 {
+    let sides = file.domain.side_velocities.all();
+    let sides = sides.iter().flatten().filter_map(|(_, given)| *given);
+    let sides = sides.map(|given| vector(&given.0).length());
+    let moves = colliders.iter().flat_map(|collider| collider.path.windows(2));
+    let moves = moves.map(|pair| f64::from(pair[0].1.distance(pair[1].1)) / (pair[1].0 - pair[0].0));
+    let spins = file
+        .colliders
+        .iter()
+        .filter_map(|collider| match &collider.shape {
+            super::model::ColliderShape::Sphere { radius, .. } => {
+                collider.spin.map(|spin| (spin * radius).abs())
+            }
+            _ => None,
+        });
+    let emitters = file
+        .emitters
+        .iter()
+        .map(|emitter| vector(&emitter.velocity.0).length());
+    sides
+        .chain(moves)
+        .chain(spins)
+        .chain(emitters)
+        .fold(0.0, f64::max)
+}
+
+/// From pressures at the start, which `particles.excess` holds so far, to densities.
+fn start(file: &SceneFile, fluid: &Fluid, particles: &mut Particles, report: &mut Report) {
+    for (i, excess) in particles.excess.iter_mut().enumerate() {
+        let material = particles.material.get(i).copied().unwrap_or(0) as usize;
+        let density = fluid
+            .materials
+            .get(material)
+            .unwrap_or(&fluid.materials[0])
+            .density;
+        *excess = fluid.excess_at(density, f64::from(*excess)) as f32;
+    }
+    if fluid.density_from == DensityFrom::Summation {
+        for (i, body) in file.bodies.iter().enumerate() {
+            if body.pressure == StartPressure::Hydrostatic {
+                report.problem(
+                    format!("bodies[{i}].pressure"),
+                    "density comes from a summation over positions, so it cannot be set",
+                    "leave it out, or set fluid.density_from to `continuity`",
+                );
+            }
+        }
+    }
+}
+
 /// Of one grain, kilograms: a ball, or a disc one metre thick.
 fn mass(file: &SceneFile, dimensions: Dimensions) -> f64 {
-    let radius = file.grains.radius;
-    file.grains.density
+    let radius = file.radius();
+    file.density()
         * match dimensions {
             Dimensions::Two => PI * radius * radius,
             Dimensions::Three => 4.0 / 3.0 * PI * radius.powi(3),
@@ -91,23 +182,30 @@ fn mass(file: &SceneFile, dimensions: Dimensions) -> f64 {
 }
 
 /// Particles when everything has happened.
-fn capacity(file: &SceneFile, at_start: usize, schedule: &[super::Scheduled], report: &mut Report) -> u32 {
+fn capacity(
+    file: &SceneFile,
+    at_start: usize,
+    walls: usize,
+    schedule: &[super::Scheduled],
+    report: &mut Report,
+) -> u32 {
     let added = schedule.iter().map(|scheduled| match &scheduled.action {
         Action::Add(particles) => particles.len(),
         Action::SetParameters { .. } => 0,
     });
-    let all = (at_start + added.sum::<usize>()) as u64;
+    let free = (at_start + added.sum::<usize>()) as u64;
+    let all = free + walls as u64;
     let comes_later = !file.emitters.is_empty() || file.events.iter().any(|event| event.drop.is_some());
     if file.bodies.is_empty() && !comes_later {
         report.problem(
             "",
-            "there are no grains",
+            "there are no particles",
             "add a body, an emitter, or an event that drops grains",
         );
-    } else if all == 0 && report.problems.is_empty() {
+    } else if free == 0 && report.problems.is_empty() {
         report.problem(
             "",
-            "no grain comes before the run ends",
+            "no particle comes before the run ends",
             "let an event or emitter act earlier, or add a body",
         );
     }
@@ -115,7 +213,7 @@ fn capacity(file: &SceneFile, at_start: usize, schedule: &[super::Scheduled], re
         report.problem(
             "",
             format!("{all} particles in all"),
-            format!("stay at or below {MOST_PARTICLES}: make bodies smaller or grains larger"),
+            format!("stay at or below {MOST_PARTICLES}: make bodies smaller or particles larger"),
         );
     }
     all.min(MOST_PARTICLES) as u32
@@ -137,7 +235,26 @@ fn neighbors(file: &SceneFile, frame: &Frame, report: &mut Report) -> Neighbors 
             "set neighbors.addressing to `sliced`, or leave regions out",
         );
     }
-    given.into()
+    let neighbors = Neighbors::from(given);
+    let periodic = frame.sides.iter().flatten().any(|&side| side == Wall::Periodic);
+    if periodic && neighbors.skin <= 0.0 {
+        report.problem(
+            "neighbors.skin",
+            "periodic sides need neighbor lists",
+            match given.storage {
+                Storage::Pool => "choose another storage than `pool`, or set neighbors.skin to 0.1",
+                _ => "leave it out, or set it to 0.1",
+            },
+        );
+    }
+    if file.fluid.is_some() && given.storage == Storage::Pool && given.slots < 8 {
+        report.notes.push(format!(
+            "neighbors.slots is {}: a voxel as wide as a fluid's kernel holds more particles, and those beyond find no \
+             neighbors",
+            given.slots
+        ));
+    }
+    neighbors
 }
 
 /// Pixels along a side.

@@ -49,7 +49,7 @@ pub struct Voxels {
     pub map: Vec<Option<u32>>,
 }
 
-/// Figures over all grains and voxels.
+/// Figures over all particles and voxels.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Statistics {
     /// Joules.
@@ -62,6 +62,8 @@ pub struct Statistics {
     pub max_overlap: f64,
     /// Contacts as each grain sees them; one of two grains counts twice.
     pub contacts: u64,
+    /// Of a fluid, the mean and the greatest |ρ/ρ₀ − 1| over its particles.
+    pub density_error: Option<[f64; 2]>,
     pub voxels_allocated: u32,
     pub voxels_occupied: u32,
     /// Voxels with one, two, three, four particles.
@@ -72,14 +74,26 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    pub(super) fn new(scene: &Scene, sums: Sums, occupancy: Occupancy, overflow: Overflow) -> Self {
+    pub(super) fn new(
+        scene: &Scene,
+        particles: u32,
+        sums: Sums,
+        occupancy: Occupancy,
+        overflow: Overflow,
+    ) -> Self {
         let [_, one, two, three, four, more] = occupancy.holding;
         Self {
             kinetic_energy: f64::from(sums.kinetic_energy),
             potential_energy: f64::from(sums.potential_energy),
             max_speed: f64::from(sums.max_speed),
-            max_overlap: f64::from(sums.max_overlap) / scene.grains.radius,
+            max_overlap: f64::from(sums.max_overlap) / scene.radius(),
             contacts: u64::from(sums.contacts),
+            density_error: scene.fluid().map(|_| {
+                [
+                    f64::from(sums.density_error) / f64::from(particles.max(1)),
+                    f64::from(sums.max_density_error),
+                ]
+            }),
             voxels_allocated: occupancy.voxels,
             voxels_occupied: one + two + three + four + more,
             voxels_with: [one, two, three, four],
@@ -147,9 +161,12 @@ pub(super) fn columns(scene: &Scene, plan: &Plan, raw: &BTreeMap<&str, &[u8]>) -
         return Vec::new();
     };
     let ids: Vec<u32> = bytemuck::pod_collect_to_vec(ids);
-    let mut slot_of = vec![0usize; ids.len()];
+    let free = ids.iter().filter(|&&id| id < scene.first_wall()).count();
+    let mut slot_of = vec![0usize; free];
     for (slot, &id) in ids.iter().enumerate() {
-        slot_of[id as usize] = slot;
+        if let Some(place) = slot_of.get_mut(id as usize) {
+            *place = slot;
+        }
     }
     let dimensions = scene.dimensions.count();
     // Stored vectors have two components in 2D and four in 3D.
@@ -183,7 +200,7 @@ pub(super) fn columns(scene: &Scene, plan: &Plan, raw: &BTreeMap<&str, &[u8]>) -
                     .flat_map(|&s| vector(&velocity, s).to_array().into_iter().take(dimensions))
                     .collect(),
             },
-            "id" => Values::Unsigned((0..ids.len() as u32).collect()),
+            "id" => Values::Unsigned((0..free as u32).collect()),
             "speed" => floats(&|s| f64::from(vector(&velocity, s).length())),
             "x" => floats(&|s| global(s).x),
             "y" => floats(&|s| global(s).y),

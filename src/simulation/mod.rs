@@ -24,11 +24,11 @@ use crate::gpu::{Buffers, Gpu};
 use crate::neighbors::layout::SearchState;
 use crate::neighbors::{Grid, boxes, lists};
 use crate::physics::collider::offset_at;
-use crate::physics::dem;
 use crate::physics::layout::{Clock, Guard, Occupancy, Overflow, Parameters, Sums};
+use crate::physics::{dem, fluid};
 use crate::plan::Plan;
 use crate::render::Renderer;
-use crate::scene::{self, Action, Dimensions, Particles, Scene};
+use crate::scene::{self, Action, Matter, Scene};
 use passes::{Kernels, Passes, Step};
 use segments::{Segment, segments};
 
@@ -51,10 +51,11 @@ pub struct Simulation {
     /// Of a step: the last one of a frame, or the mean over a frame where some steps search and others do not.
     pass_ms: Vec<(String, f64)>,
     next_frame: u32,
-    /// Particles that exist.
+    /// Particles that exist, boundary particles included.
     count: u32,
     gravity: Vec3,
-    contact: scene::Contact,
+    /// Of grains.
+    contact: Option<scene::Contact>,
     /// Events that have happened.
     happened: usize,
     /// Steps that were submitted since the run began.
@@ -110,7 +111,7 @@ impl Simulation {
             next_frame: 0,
             count: 0,
             gravity: scene.gravity,
-            contact: scene.grains.contact,
+            contact: scene.grains().map(|grains| grains.contact),
             happened: 0,
             submitted: 0,
             growths: 0,
@@ -160,7 +161,20 @@ impl Simulation {
             buffers.write(gpu, "clamp_walls", 0, &[dem::clamp_walls(scene)])?;
         }
         if buffers.contains("measure") {
-            buffers.write(gpu, "measure", 0, &[dem::measure(scene, &self.plan.grid)])?;
+            let measure = match &scene.matter {
+                Matter::Grains(grains) => dem::measure(scene, grains, &self.plan.grid),
+                Matter::Fluid(_) => fluid::measure(scene),
+            };
+            buffers.write(gpu, "measure", 0, &[measure])?;
+        }
+        if let Matter::Fluid(given) = &scene.matter {
+            buffers.write(gpu, "fluid", 0, &[fluid::coefficients(scene, given)])?;
+            if buffers.contains("materials") {
+                buffers.write(gpu, "materials", 0, &fluid::materials(given))?;
+            }
+            if buffers.contains("boundary") {
+                buffers.write(gpu, "boundary", 0, &fluid::boundary(scene))?;
+            }
         }
         if buffers.contains("colliders") {
             buffers.write(gpu, "colliders", 0, &self.plan.obstacles.colliders)?;
@@ -182,8 +196,13 @@ impl Simulation {
         self.buffers.write(&self.gpu, "parameters", 0, &[parameters])?;
         let dispatch = self.plan.dispatch(self.count, &self.gpu.limits);
         self.buffers.write(&self.gpu, "dispatch", 0, &dispatch)?;
-        let contact = dem::contact_values(&self.scene, &self.contact);
-        self.buffers.write(&self.gpu, "contact", 0, &[contact])
+        match (&self.scene.matter, &self.contact) {
+            (Matter::Grains(grains), Some(contact)) => {
+                let contact = dem::contact_values(grains, contact);
+                self.buffers.write(&self.gpu, "contact", 0, &[contact])
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Simulates up to the next frame (frame 0 is the initial state), has it observed and drawn, and sends it on its
@@ -191,7 +210,8 @@ impl Simulation {
     pub fn next_frame(&mut self) -> Result<Option<Frame>> {
         let index = self.next_frame;
         if index == 0 {
-            self.add_particles(&self.scene.particles.clone())?;
+            let walls = self.walls_as_particles();
+            self.add_particles(&self.scene.particles.clone(), Some(&walls))?;
             self.write_parameters(self.scene.time.step)?;
         } else {
             let time = self.scene.time;
@@ -224,7 +244,7 @@ impl Simulation {
                     self.gravity = gravity;
                     self.contact = contact;
                 }
-                Action::Add(particles) => self.add_particles(&particles)?,
+                Action::Add(particles) => self.add_particles(&particles, None)?,
             }
         }
         if changed {
@@ -238,6 +258,17 @@ impl Simulation {
         if !self.plan.obstacles.moving {
             return Ok(());
         }
+        if self.buffers.contains("body_velocity") {
+            let velocity = |collider: &scene::Collider| {
+                let way = offset_at(&collider.path, segment.end_time)
+                    - offset_at(&collider.path, segment.start_time);
+                (way / (segment.end_time - segment.start_time) as f32)
+                    .extend(0.0)
+                    .to_array()
+            };
+            let velocities: Vec<[f32; 4]> = self.scene.colliders.iter().map(velocity).collect();
+            return self.buffers.write(&self.gpu, "body_velocity", 0, &velocities);
+        }
         let mut moved = self.plan.obstacles.colliders.clone();
         for (collider, placed) in moved.iter_mut().zip(&self.scene.colliders) {
             let from = offset_at(&placed.path, segment.start_time);
@@ -249,53 +280,6 @@ impl Simulation {
         self.buffers.write(&self.gpu, "colliders", 0, &moved)?;
         // The first field of `Clock`.
         self.buffers.write(&self.gpu, "clock", 0, &[0u32])
-    }
-
-    /// Adds particles behind those that exist and searches neighbors anew, without moving anything.
-    fn add_particles(&mut self, particles: &Particles) -> Result<()> {
-        if particles.is_empty() {
-            return Ok(());
-        }
-        let first = self.count as usize;
-        let ids: Vec<u32> = (self.count..self.count + particles.len() as u32).collect();
-        self.buffers.write(&self.gpu, "next_id", first, &ids)?;
-        for (name, values) in [
-            ("next_position", &particles.position),
-            ("next_velocity", &particles.velocity),
-        ] {
-            match self.scene.dimensions {
-                Dimensions::Two => {
-                    let packed: Vec<[f32; 2]> = values.iter().map(|v| [v.x, v.y]).collect();
-                    self.buffers.write(&self.gpu, name, first, &packed)?;
-                }
-                Dimensions::Three => {
-                    let packed: Vec<[f32; 4]> = values.iter().map(|v| [v.x, v.y, v.z, 0.0]).collect();
-                    self.buffers.write(&self.gpu, name, first, &packed)?;
-                }
-            }
-        }
-        let mut encoder = self.encoder("add particles");
-        let vector = dem::packed_bytes(self.scene.dimensions) * u64::from(self.count);
-        for (name, next, bytes) in [
-            ("position", "next_position", vector),
-            ("velocity", "next_velocity", vector),
-            ("acceleration", "next_acceleration", vector),
-            ("id", "next_id", 4 * u64::from(self.count)),
-        ] {
-            if bytes > 0 && self.buffers.contains(name) {
-                let (from, to) = (
-                    self.buffers.get(name, "(host)")?,
-                    self.buffers.get(next, "(host)")?,
-                );
-                encoder.copy_buffer_to_buffer(from, 0, to, 0, bytes);
-            }
-        }
-        self.count += particles.len() as u32;
-        // With a time step of zero, the passes behind the search find accelerations and leave velocities alone.
-        self.write_parameters(0.0)?;
-        self.gpu.queue.submit([encoder.finish()]);
-        self.search()?;
-        self.settle()
     }
 
     /// Searches neighbors of what stands in `next_position`, and does what a step does after its search.
@@ -426,7 +410,7 @@ impl Simulation {
         let bytes = parts.iter().map(|(_, bytes)| bytes).sum();
         let pending = Pending {
             index,
-            particles: self.count,
+            particles: self.free_particles(),
             quarantined: self.quarantined,
             searches: self.searches_since_last_frame(index),
             growths: std::mem::take(&mut self.growths),
@@ -514,7 +498,7 @@ impl Simulation {
         let statistics = self.plan.wanted.statistics.then(|| {
             let sums: Sums = bytemuck::pod_read_unaligned(by_name["sums"]);
             let occupancy: Occupancy = bytemuck::pod_read_unaligned(by_name["occupancy_count"]);
-            Statistics::new(&self.scene, sums, occupancy, overflow)
+            Statistics::new(&self.scene, pending.particles, sums, occupancy, overflow)
         });
         Ok(Frame {
             index: pending.index,
@@ -545,22 +529,36 @@ impl Simulation {
         let position = local.as_dvec3() + self.scene.origin;
         let velocity = [guard.velocity[0], guard.velocity[1], guard.velocity[2]];
         let speed = velocity.iter().map(|v| v * v).sum::<f32>().sqrt();
-        let radii = f64::from(speed) * time.step / self.scene.grains.radius;
+        let fluid = self.scene.fluid().is_some();
+        let radii = f64::from(speed) * time.step / self.scene.radius();
         let (what, likely_cause) = match guard.kind {
             1 => (
                 "a particle's position or velocity is not a finite number",
-                format!(
-                    "the time step of {:.3e} s is too long for the contact's stiffness or damping; \
-                     lower time.step or raise time.steps_per_contact",
-                    time.step
-                ),
+                if fluid {
+                    format!(
+                        "the time step of {:.3e} s is too long for the fluid's speed; raise fluid.max_speed or lower \
+                         time.step",
+                        time.step
+                    )
+                } else {
+                    format!(
+                        "the time step of {:.3e} s is too long for the contact's stiffness or damping; \
+                         lower time.step or raise time.steps_per_contact",
+                        time.step
+                    )
+                },
             ),
             _ => (
                 "a particle left the domain through a closed side",
                 format!(
                     "it moved {radii:.2} radii in a step of {:.3e} s, or was pressed through the wall; \
-                     raise grains.spring, lower time.step, or open that side",
-                    time.step
+                     {}, lower time.step, or open that side",
+                    time.step,
+                    if fluid {
+                        "raise fluid.max_speed"
+                    } else {
+                        "raise grains.spring"
+                    }
                 ),
             ),
         };

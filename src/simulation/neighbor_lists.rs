@@ -62,7 +62,7 @@ impl Simulation {
         ] {
             buffers.create(gpu, name, bytes, Usage::Storage);
         }
-        let radius = (2.0 * self.scene.grains.radius) as f32;
+        let radius = self.scene.search_radius() as f32;
         buffers.write(gpu, "search_radius", 0, &[radius])?;
         let query = PairQuery {
             count: Pass::new(gpu, &shader, "count_neighbors", buffers)?,

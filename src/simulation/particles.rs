@@ -1,38 +1,148 @@
-//! The particles of the present state, on the host.
+//! Particles on their way to the device and back.
 
 use glam::Vec3;
 
 use super::Simulation;
 use crate::error::Result;
 use crate::gpu::readback;
+use crate::physics::dem;
 use crate::scene::{Dimensions, Particles};
 
 impl Simulation {
-    /// Local positions and velocities after the last [`Simulation::next_frame`], in order of id. Waits for the device.
+    /// Particles besides boundary particles.
+    pub(super) fn free_particles(&self) -> u32 {
+        self.count.saturating_sub(self.scene.walls.len() as u32)
+    }
+
+    /// Boundary particles as they stand at the start.
+    pub(super) fn walls_as_particles(&self) -> Particles {
+        let walls = &self.scene.walls;
+        Particles {
+            position: walls.position.clone(),
+            velocity: walls.surface_velocity.clone(),
+            ..Particles::default()
+        }
+    }
+
+    /// Adds particles behind those that exist, and boundary particles behind these, and searches neighbors anew,
+    /// without moving anything.
+    pub(super) fn add_particles(&mut self, free: &Particles, walls: Option<&Particles>) -> Result<()> {
+        let none = Particles::default();
+        let walls = walls.unwrap_or(&none);
+        let first_id = self.free_particles();
+        let (more, all) = (free.len() as u32, free.len() + walls.len());
+        if all == 0 {
+            return Ok(());
+        }
+        let first = self.count as usize;
+        let first_wall = self.scene.first_wall();
+        let ids: Vec<u32> = (first_id..first_id + more)
+            .chain(first_wall..first_wall + walls.len() as u32)
+            .collect();
+        self.buffers.write(&self.gpu, "next_id", first, &ids)?;
+        for (name, values) in [
+            ("next_position", [&free.position, &walls.position]),
+            ("next_velocity", [&free.velocity, &walls.velocity]),
+        ] {
+            let values = values.into_iter().flatten();
+            match self.scene.dimensions {
+                Dimensions::Two => {
+                    let packed: Vec<[f32; 2]> = values.map(|v| [v.x, v.y]).collect();
+                    self.buffers.write(&self.gpu, name, first, &packed)?;
+                }
+                Dimensions::Three => {
+                    let packed: Vec<[f32; 4]> = values.map(|v| [v.x, v.y, v.z, 0.0]).collect();
+                    self.buffers.write(&self.gpu, name, first, &packed)?;
+                }
+            }
+        }
+        if self.buffers.contains("next_excess") {
+            let mut excess = free.excess.clone();
+            excess.resize(all, 0.0);
+            self.buffers.write(&self.gpu, "next_excess", first, &excess)?;
+        }
+        if self.buffers.contains("next_material") {
+            let mut material = free.material.clone();
+            material.resize(all, 0);
+            self.buffers.write(&self.gpu, "next_material", first, &material)?;
+        }
+        let mut encoder = self.encoder("add particles");
+        let vector = dem::packed_bytes(self.scene.dimensions) * u64::from(self.count);
+        // Densities stand in `next_excess` already (physics/fluid/density.wgsl).
+        for (name, next, bytes) in [
+            ("position", "next_position", vector),
+            ("velocity", "next_velocity", vector),
+            ("acceleration", "next_acceleration", vector),
+            ("id", "next_id", 4 * u64::from(self.count)),
+            ("material", "next_material", 4 * u64::from(self.count)),
+        ] {
+            if bytes > 0 && self.buffers.contains(name) {
+                let (from, to) = (
+                    self.buffers.get(name, "(host)")?,
+                    self.buffers.get(next, "(host)")?,
+                );
+                encoder.copy_buffer_to_buffer(from, 0, to, 0, bytes);
+            }
+        }
+        self.count += all as u32;
+        // With a time step of zero, the passes behind the search find accelerations and leave velocities alone.
+        self.write_parameters(0.0)?;
+        self.gpu.queue.submit([encoder.finish()]);
+        self.search()?;
+        self.settle()
+    }
+
+    /// Local positions and velocities after the last [`Simulation::next_frame`], in order of id, without boundary
+    /// particles; of a fluid with ρ/ρ₀ − 1 too. Waits for the device.
     pub fn particles(&self) -> Result<Particles> {
         let count = self.count as usize;
-        let buffer = |name| self.buffers.get(name, "(host)");
-        let ids: Vec<u32> = readback::read(&self.gpu, buffer("id")?, count)?;
+        let ids: Vec<u32> = readback::read(&self.gpu, self.buffers.get("id", "(host)")?, count)?;
         let column = |name| -> Result<Vec<Vec3>> {
+            let buffer = self.buffers.get(name, "(host)")?;
             let stored: Vec<Vec3> = match self.scene.dimensions {
-                Dimensions::Two => readback::read::<[f32; 2]>(&self.gpu, buffer(name)?, count)?
+                Dimensions::Two => readback::read::<[f32; 2]>(&self.gpu, buffer, count)?
                     .into_iter()
                     .map(|[x, y]| Vec3::new(x, y, 0.0))
                     .collect(),
-                Dimensions::Three => readback::read::<[f32; 4]>(&self.gpu, buffer(name)?, count)?
+                Dimensions::Three => readback::read::<[f32; 4]>(&self.gpu, buffer, count)?
                     .into_iter()
                     .map(|[x, y, z, _]| Vec3::new(x, y, z))
                     .collect(),
             };
-            let mut by_id = vec![Vec3::ZERO; count];
-            for (&id, value) in ids.iter().zip(stored) {
-                by_id[id as usize] = value;
-            }
-            Ok(by_id)
+            Ok(self.by_id(&ids, stored))
         };
         Ok(Particles {
             position: column("position")?,
             velocity: column("velocity")?,
+            excess: self.fluid_column(&ids, 0)?,
+            material: Vec::new(),
         })
+    }
+
+    /// Pressures of a fluid's particles, Pa, in order of id. Empty for grains.
+    pub fn pressures(&self) -> Result<Vec<f32>> {
+        let ids: Vec<u32> =
+            readback::read(&self.gpu, self.buffers.get("id", "(host)")?, self.count as usize)?;
+        self.fluid_column(&ids, 1)
+    }
+
+    fn fluid_column(&self, ids: &[u32], component: usize) -> Result<Vec<f32>> {
+        if !self.buffers.contains("fluid_state") {
+            return Ok(Vec::new());
+        }
+        let buffer = self.buffers.get("fluid_state", "(host)")?;
+        let state: Vec<[f32; 2]> = readback::read(&self.gpu, buffer, ids.len())?;
+        Ok(self.by_id(ids, state.into_iter().map(|state| state[component]).collect()))
+    }
+
+    /// Values by slot in order of id, without those of boundary particles.
+    fn by_id<T: Copy + Default>(&self, ids: &[u32], by_slot: Vec<T>) -> Vec<T> {
+        let mut ordered = vec![T::default(); self.free_particles() as usize];
+        for (&id, value) in ids.iter().zip(by_slot) {
+            if let Some(place) = ordered.get_mut(id as usize) {
+                *place = value;
+            }
+        }
+        ordered
     }
 }

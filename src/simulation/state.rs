@@ -19,11 +19,15 @@ use crate::scene::model::Axis;
 use crate::scene::{Action, Dimensions, Scene};
 
 /// Buffers with one value a particle, and where the search takes them from.
-const PARTICLE_BUFFERS: [(&str, &str); 4] = [
+///
+/// A fluid's densities are found behind the search, which leaves them in `next_excess`, in the order of slots.
+const PARTICLE_BUFFERS: [(&str, &str); 6] = [
     ("position", "next_position"),
     ("velocity", "next_velocity"),
     ("acceleration", "next_acceleration"),
     ("id", "next_id"),
+    ("next_excess", "next_excess"),
+    ("material", "next_material"),
 ];
 
 /// What the step after a frame depends on.
@@ -147,7 +151,7 @@ impl Simulation {
         let vector = dem::packed_bytes(self.scene.dimensions) as usize;
         let count = self.count as usize;
         let particles = PARTICLE_BUFFERS.map(|(name, _)| match name {
-            "id" => (name, 4 * count),
+            "id" | "next_excess" | "material" => (name, 4 * count),
             _ => (name, vector * count),
         });
         let counters = [
@@ -178,7 +182,7 @@ impl Simulation {
         self.count = state.particles;
         self.happened = happened(&self.scene, state.frame);
         self.gravity = self.scene.gravity;
-        self.contact = self.scene.grains.contact;
+        self.contact = self.scene.grains().map(|grains| grains.contact);
         for scheduled in &self.scene.schedule[..self.happened] {
             if let Action::SetParameters { gravity, contact } = &scheduled.action {
                 (self.gravity, self.contact) = (*gravity, *contact);

@@ -68,7 +68,7 @@ pub struct CpuGrid {
 
 impl CpuGrid {
     pub fn new(scene: &Scene, addressing: Addressing, storage: Storage) -> Self {
-        let side = 2.0 * scene.grains.radius * (1.0 + 1e-4);
+        let side = 2.0 * scene.radius() * (1.0 + 1e-4);
         let extent = (scene.domain.max - scene.domain.min).as_dvec3();
         let size = (extent / side).to_array().map(|n| (n.ceil() as i32).max(1));
         let slice = Slice {

@@ -94,7 +94,7 @@ fn settled_bed(bench: &Bench, scale: &Scale) -> Result<Scene> {
 
 /// The two orders in which the state can stand when a run begins.
 fn orders(scene: &Scene) -> [(&'static str, Particles); 2] {
-    let side = 2.0 * scene.grains.radius as f32;
+    let side = 2.0 * scene.radius() as f32;
     let voxel = |p: glam::Vec3| {
         let [x, y, z] = ((p - scene.domain.min) / side)
             .to_array()

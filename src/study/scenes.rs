@@ -109,7 +109,8 @@ pub fn with_grid(scene: &Scene, grid: &str) -> Result<Scene> {
         file["neighbors"]["deterministic"] = false.into();
     }
     // Only the search's own choices are taken over, so that bodies need not be placed again.
-    file["bodies"] = json!([{ "shape": { "kind": "sphere", "center": centre(&file), "radius": 1.5 * scene.grains.radius } }]);
+    file["bodies"] =
+        json!([{ "shape": { "kind": "sphere", "center": centre(&file), "radius": 1.5 * scene.radius() } }]);
     file["events"] = json!([]);
     let chosen = parse(&file)?;
     Ok(Scene {
@@ -151,6 +152,7 @@ pub fn at_rest(position: Vec<Vec3>) -> Particles {
     Particles {
         velocity: vec![Vec3::ZERO; position.len()],
         position,
+        ..Particles::default()
     }
 }
 
@@ -172,6 +174,7 @@ fn reordered(particles: &Particles, order: &[usize]) -> Particles {
     Particles {
         position: order.iter().map(|&i| particles.position[i]).collect(),
         velocity: order.iter().map(|&i| particles.velocity[i]).collect(),
+        ..Particles::default()
     }
 }
 

@@ -185,7 +185,7 @@ impl Random {
 pub fn heap(scene: &Scene, count: usize) -> Particles {
     let mut random = Random(7);
     let mut particles = Particles::default();
-    let diameter = 2.0 * scene.grains.radius as f32;
+    let diameter = 2.0 * scene.radius() as f32;
     let (min, max) = (scene.domain.min, scene.domain.max);
     let cells = ((max - min) / diameter).floor().as_ivec3();
     let middle = (min + max) * 0.5;

@@ -13,19 +13,9 @@ var<storage, read_write> pressure: array<f32>; // Pa
 var<storage, read_write> density: array<f32>; // kg/m³
 #end
 
-struct Measure {
-    mass: f32, // of a grain, kg
-    surface: f32, // of a grain, m² (its rim times one metre in 2D)
-    block_volume: f32, // of the voxels that a search visits, m³ (times one metre in 2D)
-    reference: vec4f, // where the potential energy is zero, m
-}
-
-var<uniform> measure: Measure;
-
+#import physics/measure
 #if statistics
-#import physics/sums
-var<storage, read_write> partial_sums: array<Sums>;
-var<workgroup> group_sums: array<Sums, GROUP_SIZE>;
+#import physics/group_sums
 #end
 
 @compute @workgroup_size(GROUP_SIZE)
@@ -66,18 +56,6 @@ fn measure_grains(thread: Thread) {
         sums.max_overlap = sum.overlap;
         sums.contacts = sum.contacts;
     }
-    // A fixed tree, so that two runs add in the same order.
-    group_sums[thread.local_index] = sums;
-    workgroupBarrier();
-    for (var reach = GROUP_SIZE / 2u; reach > 0u; reach /= 2u) {
-        if thread.local_index < reach {
-            group_sums[thread.local_index] =
-                add_sums(group_sums[thread.local_index], group_sums[thread.local_index + reach]);
-        }
-        workgroupBarrier();
-    }
-    if thread.local_index == 0u {
-        partial_sums[group_index(thread)] = group_sums[0];
-    }
+    sum_group(thread, sums);
 #end
 }

@@ -4,6 +4,7 @@
 #import common/reach
 #import physics/present
 #import storage/lists/state
+#import cells/images
 #import <storage>
 
 var<storage, read_write> neighbor_list: array<u32>;
@@ -17,18 +18,24 @@ fn list_candidates(thread: Thread) {
         return;
     }
     let x = unpack(position[i]);
-    let home = voxel_of(x);
     let first_slot = i * grid.list_capacity;
     var count = 0u;
-    for (var k = 0u; k < RANGES; k++) {
-        let range = candidate_range(home, k);
-        for (var slot = range.x; slot < range.y; slot++) {
-            let j = candidate(slot);
-            if j != i && within(unpack(position[j]) - x, grid.list_reach) {
-                if count < grid.list_capacity {
-                    neighbor_list[first_slot + count] = j;
+    for (var number = 0u; number < IMAGES; number++) {
+        var y: Vector;
+        if !image(x, number, grid.list_reach, &y) {
+            continue;
+        }
+        let home = voxel_of(y);
+        for (var k = 0u; k < RANGES; k++) {
+            let range = candidate_range(home, k);
+            for (var slot = range.x; slot < range.y; slot++) {
+                let j = candidate(slot);
+                if j != i && within(unpack(position[j]) - y, grid.list_reach) {
+                    if count < grid.list_capacity {
+                        neighbor_list[first_slot + count] = j;
+                    }
+                    count += 1u;
                 }
-                count += 1u;
             }
         }
     }

@@ -1,13 +1,14 @@
 // Watches how far particles move from where they were listed.
 #import common/vector
 #import cells/grid
+#import cells/images
 #import storage/lists/state
 
 var<storage, read> listed_position: array<Packed>;
 
 // Two particles that come nearer by the skin together have moved by half of it each.
 fn watch_list(i: u32, moved: Vector) {
-    let way = moved - unpack(listed_position[i]);
+    let way = nearest_image(moved - unpack(listed_position[i]));
     if dot(way, way) > grid.list_move {
         atomicStore(&list_state.moved, 1u);
     }

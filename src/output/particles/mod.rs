@@ -138,7 +138,7 @@ impl ParticleOutput {
         let corners = [scene.domain.min, scene.domain.max].map(|corner| corner.as_dvec3() + scene.origin);
         let far = corners.iter().map(|c| c.abs().max_element()).fold(0.0, f64::max);
         let step = far * f64::from(f32::EPSILON);
-        (!names.is_empty() && step > COARSE * scene.grains.radius).then(|| {
+        (!names.is_empty() && step > COARSE * scene.radius()).then(|| {
             format!(
                 "{} keep coordinates in single precision, which resolves {} so far from zero; --particles vtk and npy \
                  keep double precision",

@@ -82,7 +82,7 @@ impl Frames {
                 &TextLog::new(note.as_str()).with_level(TextLogLevel::INFO),
             )?;
         }
-        let radius = self.scene.grains.radius * self.scene.render.splat_scale;
+        let radius = self.scene.radius() * self.scene.render.splat_scale;
         stream.log_static(
             "scene/particles",
             &Points3D::update_fields().with_radii([radius as f32]),

@@ -147,7 +147,7 @@ impl Settings {
 fn shown_origin(scene: &Scene) -> DVec3 {
     let corners = [scene.domain.min, scene.domain.max].map(|corner| corner.as_dvec3() + scene.origin);
     let farthest = corners.iter().map(|c| c.abs().max_element()).fold(0.0, f64::max);
-    if farthest * f64::from(f32::EPSILON) < 1e-3 * scene.grains.radius {
+    if farthest * f64::from(f32::EPSILON) < 1e-3 * scene.radius() {
         scene.origin
     } else {
         DVec3::ZERO

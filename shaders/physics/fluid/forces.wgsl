@@ -1,0 +1,122 @@
+// Forces on a particle of the fluid. Knows nothing of the grid behind `<candidates>`.
+#import physics/fluid/pairs
+#import physics/fluid/material
+#import physics/fluid/state
+#if matrices
+#import physics/fluid/matrix
+#end
+#if viscosity
+#import physics/fluid/viscous
+#end
+#if stress_form
+var<storage, read> stress: array<Matrix>;
+#end
+#if gradient_correction
+var<storage, read> correction: array<Matrix>;
+#end
+
+struct Forces {
+    acceleration: Vector, // m/s²
+#if shifting
+    shift: Vector, // way to where particles are sparser, m
+    velocity_slope: Matrix, // along which the velocity changes on that way, 1/s
+    excess_slope: Vector, // 1/m
+#end
+}
+
+fn forces_on(i: u32) -> Forces {
+    let x = unpack(position[i]);
+    let v = unpack(velocity[i]);
+    let own = material_of(i);
+    let state = fluid_state[i];
+    let density = own.density * (1.0 + state.x);
+    var push = Vector(0.0); // of pressure, N/m³
+    var drag = Vector(0.0); // of viscosity, N/m³
+#if shifting
+    var crowd = Vector(0.0);
+    var velocity_slope = Matrix();
+    var excess_slope = Vector(0.0);
+#end
+    let home = around(i, x);
+    for (var k = 0u; k < RANGES; k++) {
+        let range = candidate_range(home, k);
+        for (var slot = range.x; slot < range.y; slot++) {
+            let j = candidate(slot);
+            let s = toward(x, j);
+            if within(s, fluid.support) && j != i {
+                let r = length(s);
+                let other = fluid_state[j];
+                let weight = volume_at(other.x) * kernel_slope(r); // the gradient of W is −s times the slope
+#if difference_pressure
+                push += (weight * (other.y - state.y)) * s;
+#else
+#if monaghan_pressure
+                let ratio = material_of(j).density * (1.0 + other.x) / density;
+                push += (weight * (state.y * ratio + other.y / ratio)) * s;
+#else
+#if controlled_pressure
+                push += (weight * (other.y + abs(state.y))) * s;
+#else
+                push += (weight * (other.y + state.y)) * s;
+#end
+#end
+#end
+#if laplacian_form
+#if slips
+                let shear = select(own.viscosity + material_of(j).viscosity, 0.0, is_wall(j));
+#else
+                let shear = own.viscosity + material_of(j).viscosity;
+#end
+#if muller_kernels
+                drag += (0.5 * shear * volume_at(other.x) * kernel_laplacian(r)) * (viscous(j) - v);
+#else
+                drag -= (shear * weight) * (viscous(j) - v);
+#end
+#end
+#if stress_form
+                // A wall's stress is taken to be that of the fluid beside it.
+#if gradient_correction
+                let step = select(stress[j] - stress[i], Matrix(), is_wall(j));
+#else
+                let step = stress[i] + select(stress[j], stress[i], is_wall(j));
+#end
+                drag -= weight * (step * s);
+#end
+#if artificial_viscosity
+                let approach = min(dot(unpack(velocity[j]) - v, s), 0.0);
+                let square = dot(s, s) + fluid.smallest_square;
+                drag -= (weight * density * fluid.artificial_viscosity * approach / square) * s;
+#end
+#if shifting
+                // More where particles come close, so that they do not pair (Monaghan 2000).
+                let near = kernel(r) / fluid.kernel_at_spacing;
+                crowd -= (weight * (1.0 + 0.2 * (near * near) * (near * near))) * s;
+                velocity_slope -= weight * outer(unpack(velocity[j]) - v, s);
+                excess_slope -= (weight * (other.x - state.x)) * s;
+#end
+            }
+        }
+    }
+#if gradient_correction
+    let exact = correction[i];
+#if difference_pressure
+    push = exact * push;
+#end
+#if stress_form
+    drag = exact * drag;
+#end
+#if shifting
+    velocity_slope = velocity_slope * exact;
+    excess_slope = exact * excess_slope;
+#end
+#end
+    var forces = Forces();
+    forces.acceleration = first(parameters.gravity) + (push + drag) / density;
+#if shifting
+    let wanted = -(parameters.time_step * fluid.shifting) * crowd;
+    forces.shift = wanted * min(1.0, fluid.shift_limit / max(length(wanted), 1e-30));
+    forces.velocity_slope = velocity_slope;
+    forces.excess_slope = excess_slope;
+#end
+    return forces;
+}

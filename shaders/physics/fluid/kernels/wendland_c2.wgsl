@@ -1,0 +1,14 @@
+// Wendland's C2 (1995) in 2D and 3D.
+#import physics/fluid/coefficients
+
+fn kernel(r: f32) -> f32 {
+    let q = r * fluid.inverse_smoothing;
+    let u = max(1.0 - 0.5 * q, 0.0);
+    return fluid.kernel_scale * (u * u) * (u * u) * (2.0 * q + 1.0);
+}
+
+// (dW/dr) / r
+fn kernel_slope(r: f32) -> f32 {
+    let u = max(1.0 - 0.5 * r * fluid.inverse_smoothing, 0.0);
+    return fluid.slope_scale * -5.0 * u * u * u;
+}

@@ -1,0 +1,36 @@
+// What a particle is made of.
+#import physics/fluid/coefficients
+
+struct Material {
+    density: f32, // at rest, kg/m³
+    viscosity: f32, // dynamic, Pa·s
+    stiffness: f32, // ρ₀c²/γ, Pa
+}
+
+#if several_materials
+var<storage, read> materials: array<Material>;
+var<storage, read> material: array<u32>;
+
+fn material_of(i: u32) -> Material {
+    return materials[material[i]];
+}
+#else
+fn material_of(i: u32) -> Material {
+    return Material(fluid.density, fluid.viscosity, fluid.stiffness);
+}
+#end
+
+// Equation of state (Tait; Monaghan 1994): p₀ + B ((1 + e)^γ − 1) with e = ρ/ρ₀ − 1, free of cancellation.
+fn pressure_at(stiffness: f32, excess: f32) -> f32 {
+    var power = excess;
+    for (var n = 1u; n < GAMMA; n++) {
+        power = power * (1.0 + excess) + excess;
+    }
+    return fluid.background_pressure + stiffness * power;
+}
+
+// The inverse of it.
+fn excess_at(stiffness: f32, pressure: f32) -> f32 {
+    let ratio = max(1.0 + (pressure - fluid.background_pressure) / stiffness, 0.0);
+    return pow(ratio, 1.0 / f32(GAMMA)) - 1.0;
+}

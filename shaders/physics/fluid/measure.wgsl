@@ -1,0 +1,53 @@
+// At the end of a frame: the fluid's columns, and figures over all of its particles.
+#import common/thread
+#import common/vector
+#import common/parameters
+#import physics/present
+#import physics/fluid/coefficients
+#import physics/fluid/material
+#import physics/fluid/state
+
+#if column_pressure
+var<storage, read_write> pressure: array<f32>; // Pa
+#end
+#if column_density
+var<storage, read_write> density: array<f32>; // kg/m³
+#end
+#if statistics
+#import physics/group_sums
+#import physics/measure
+#end
+
+@compute @workgroup_size(GROUP_SIZE)
+fn measure_fluid(thread: Thread) {
+    let i = item_index(thread);
+    let alive = i < parameters.particle_count;
+#if statistics
+    var sums = Sums();
+#end
+    if alive {
+        let state = fluid_state[i];
+        let own = material_of(i);
+#if column_pressure
+        pressure[i] = state.y;
+#end
+#if column_density
+        density[i] = own.density * (1.0 + state.x);
+#end
+#if statistics
+        if id[i] < fluid.first_wall {
+            let v = unpack(velocity[i]);
+            let mass = own.density * fluid.volume;
+            sums.kinetic_energy = 0.5 * mass * dot(v, v);
+            sums.potential_energy =
+                -mass * dot(first(parameters.gravity), unpack(position[i]) - first(measure.reference));
+            sums.max_speed = length(v);
+            sums.density_error = abs(state.x);
+            sums.max_density_error = abs(state.x);
+        }
+#end
+    }
+#if statistics
+    sum_group(thread, sums);
+#end
+}

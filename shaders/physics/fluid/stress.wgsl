@@ -1,0 +1,43 @@
+// Viscous stress of each particle of the fluid (Rojas 2013, Eq. 4): μ (∇v + ∇vᵀ − ⅔ ∇·v).
+#import common/thread
+#import physics/fluid/pairs
+#import physics/fluid/material
+#import physics/fluid/state
+#import physics/fluid/matrix
+#import physics/fluid/viscous
+#if gradient_correction
+var<storage, read> correction: array<Matrix>;
+#end
+var<storage, read_write> stress: array<Matrix>;
+
+@compute @workgroup_size(GROUP_SIZE)
+fn find_stress(thread: Thread) {
+    let i = item_index(thread);
+    if i >= parameters.particle_count || is_wall(i) {
+        return;
+    }
+    let x = unpack(position[i]);
+    let v = unpack(velocity[i]);
+    var slopes = Matrix();
+    let home = around(i, x);
+    for (var k = 0u; k < RANGES; k++) {
+        let range = candidate_range(home, k);
+        for (var slot = range.x; slot < range.y; slot++) {
+            let j = candidate(slot);
+            let s = toward(x, j);
+            if within(s, fluid.support) && j != i {
+                let weight = volume_at(fluid_state[j].x) * kernel_slope(length(s));
+#if slips
+                slopes -= weight * outer(select(viscous(j) - v, Vector(0.0), is_wall(j)), s);
+#else
+                slopes -= weight * outer(viscous(j) - v, s);
+#end
+            }
+        }
+    }
+#if gradient_correction
+    slopes = slopes * correction[i];
+#end
+    let sheared = slopes + transpose(slopes) - (2.0 / 3.0 * trace(slopes)) * unit();
+    stress[i] = material_of(i).viscosity * sheared;
+}

@@ -1,0 +1,258 @@
+//! Fluids: smoothed particle hydrodynamics (Müller 2003; Monaghan 1994; Rojas 2013, Eq. 1 to 7).
+//!
+//! A step moves every particle (`shaders/physics/fluid/symplectic_euler.wgsl`), searches neighbors, finds densities and
+//! pressures there, and carries them on into the walls. So at the end of a step, and of a frame, all are at one time.
+
+use glam::Vec3;
+
+use super::Solver;
+use super::dem::packed_bytes;
+use super::kernels;
+use super::layout::{Fluid, Material, Measure};
+use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
+use crate::scene::column::{Column, Source};
+use crate::scene::model::{DensityFrom, Kernel, NegativePressure, PressureForce, Slip, ViscosityForm, Wall};
+use crate::scene::walls::NO_BODY;
+use crate::scene::{self, Scene};
+
+/// Farthest that one step may shift a particle, as a share of the spacing.
+const LONGEST_SHIFT: f64 = 0.05;
+/// The shift of δ⁺-SPH in units of h × expected speed (Sun 2017, with its h half of the support).
+const USUAL_SHIFT: f64 = 1.0;
+
+fn kernel_file(kernel: Kernel) -> &'static str {
+    match kernel {
+        Kernel::CubicSpline => "physics/fluid/kernels/cubic_spline",
+        Kernel::WendlandC2 => "physics/fluid/kernels/wendland_c2",
+        Kernel::WendlandC4 => "physics/fluid/kernels/wendland_c4",
+        Kernel::QuinticSpline => "physics/fluid/kernels/quintic_spline",
+        Kernel::Muller => "physics/fluid/kernels/muller",
+    }
+}
+
+/// What a fluid needs. `columns` are those that somebody asked for, `statistics` whether figures over it are.
+pub fn plan(
+    scene: &Scene,
+    fluid: &scene::fluid::Fluid,
+    columns: &[Column],
+    statistics: bool,
+    variant: &mut Variant,
+) -> Solver {
+    let viscous = fluid.materials.iter().any(|material| material.viscosity > 0.0);
+    let stress = viscous && fluid.viscosity_form == ViscosityForm::Stress;
+    let walls = !scene.walls.is_empty();
+    let moving = walls && scene.colliders.iter().any(|collider| !collider.path.is_empty());
+    let continuity = fluid.density_from == DensityFrom::Continuity;
+    let several = fluid.materials.len() > 1;
+    // Boundary particles that do not stick are left out of nothing but viscosity.
+    let sticks = walls && viscous && fluid.slip == Slip::NoSlip;
+    let shifting = fluid.shifting > 0.0;
+    variant
+        .role("kernel", kernel_file(fluid.kernel))
+        .constant("GAMMA", fluid.gamma)
+        .flag("boundary_particles", walls)
+        .flag("moving_boundaries", moving)
+        .flag("continuity", continuity)
+        .flag("density_diffusion", continuity && fluid.density_diffusion > 0.0)
+        .flag("several_materials", several)
+        .flag("viscosity", viscous)
+        .flag("viscous_velocities", sticks)
+        .flag("slips", viscous && walls && fluid.slip == Slip::FreeSlip)
+        .flag("laplacian_form", viscous && !stress)
+        .flag("stress_form", stress)
+        .flag("artificial_viscosity", fluid.artificial_viscosity > 0.0)
+        .flag("muller_kernels", fluid.kernel == Kernel::Muller)
+        .flag(
+            "monaghan_pressure",
+            fluid.pressure_force == PressureForce::Monaghan,
+        )
+        .flag(
+            "difference_pressure",
+            fluid.pressure_force == PressureForce::Difference,
+        )
+        .flag(
+            "clamped_pressure",
+            fluid.negative_pressure == NegativePressure::Clamp,
+        )
+        .flag(
+            "controlled_pressure",
+            fluid.negative_pressure == NegativePressure::Control,
+        )
+        .flag("gradient_correction", fluid.gradient_correction)
+        .flag("shifting", shifting)
+        .flag("matrices", fluid.gradient_correction || stress || shifting)
+        .flag("statistics", statistics);
+    let measured: Vec<&Column> = columns.iter().filter(|c| c.source == Source::Measured).collect();
+    for column in &measured {
+        variant.flag(&format!("column_{}", column.name), true);
+    }
+
+    let mut solver = Solver::default();
+    let each = u64::from(scene.capacity);
+    let matrix = [0, 0, 16, 48][scene.dimensions.count()];
+    let vector = packed_bytes(scene.dimensions);
+    let buffers = &mut solver.buffers;
+    let mut column = |wanted: bool, name: &str, bytes: u64, why: &str| {
+        if wanted {
+            buffers.push(BufferPlan::storage(name, each, bytes, why));
+        }
+    };
+    column(true, "fluid_state", 8, "density and pressure");
+    column(continuity, "excess", 4, "density that the flow carries along");
+    column(continuity, "next_excess", 4, "density, before reordering");
+    column(several, "material", 4, "which fluid a particle belongs to");
+    column(several, "next_material", 4, "which fluid, before reordering");
+    let why = "velocities that viscous forces see, walls that stick included";
+    column(sticks, "viscous_velocity", vector, why);
+    column(
+        fluid.gradient_correction,
+        "correction",
+        matrix,
+        "makes gradients exact for linear fields",
+    );
+    column(stress, "stress", matrix, "viscous stress");
+    for measured in &measured {
+        column(true, measured.name, 4, measured.about);
+    }
+    buffers.push(BufferPlan::uniform(
+        "fluid",
+        Fluid::LAYOUT.size,
+        "coefficients of the fluid",
+    ));
+    if several {
+        let count = fluid.materials.len() as u64;
+        buffers.push(BufferPlan::storage(
+            "materials",
+            count,
+            Material::LAYOUT.size as u64,
+            "the fluids",
+        ));
+    }
+    if walls {
+        let count = scene.walls.len() as u64;
+        let why = "boundary particles: velocity of the surface, and whose they are";
+        buffers.push(BufferPlan::storage("boundary", count, 16, why));
+    }
+    if moving {
+        let count = scene.colliders.len() as u64;
+        buffers.push(BufferPlan::storage(
+            "body_velocity",
+            count,
+            16,
+            "how obstacles move",
+        ));
+    }
+
+    let pass = |file: &str, entry, why: &str| {
+        PassPlan::new(&format!("physics/fluid/{file}"), entry, Items::Particles, why)
+    };
+    solver.before_search.extend([
+        pass(
+            "symplectic_euler",
+            "move_fluid",
+            "forces and symplectic Euler (Rojas 2013, Eq. 7)",
+        ),
+        PassPlan::new(
+            "physics/advance_clock",
+            "advance_clock",
+            Items::Once,
+            "counts the step",
+        ),
+    ]);
+    let why = match fluid.density_from {
+        DensityFrom::Summation => "density by summation (Rojas 2013, Eq. 1), and pressure",
+        DensityFrom::Continuity => "density by continuity, and pressure",
+    };
+    solver.after_search.push(pass("density", "find_density", why));
+    if walls {
+        let why = "boundary particles take on the fluid's pressure and velocity (Adami 2012)";
+        solver.after_search.push(pass("boundary", "extend_to_walls", why));
+    }
+    if stress {
+        let why = "velocity gradient and viscous stress (Rojas 2013, Eq. 4)";
+        solver.after_search.push(pass("stress", "find_stress", why));
+    }
+    if statistics {
+        buffers.push(BufferPlan::uniform(
+            "measure",
+            Measure::LAYOUT.size,
+            "where energies are zero",
+        ));
+    }
+    if statistics || !measured.is_empty() {
+        let why = "energies, densities and measured columns, once a frame";
+        solver.measure.push(pass("measure", "measure_fluid", why));
+    }
+    solver
+}
+
+/// The fluid's numbers for the shaders.
+pub fn coefficients(scene: &Scene, fluid: &scene::fluid::Fluid) -> Fluid {
+    let dimensions = scene.dimensions.count();
+    let h = fluid.smoothing();
+    let scale = |sigma: f64, power: usize| (sigma / h.powi(power as i32)) as f32;
+    let sound = fluid.sound_speed;
+    // h as other kernels have it: half of what the kernel reaches.
+    let half = fluid.support / 2.0;
+    let closed = |axis: usize| match scene.domain.sides[axis] {
+        [Wall::Periodic, _] => 0.0,
+        _ => 1.0,
+    };
+    Fluid {
+        support: fluid.support as f32,
+        inverse_smoothing: (1.0 / h) as f32,
+        kernel_scale: scale(kernels::normalization(fluid.kernel, dimensions), dimensions),
+        slope_scale: scale(
+            kernels::slope_normalization(fluid.kernel, dimensions),
+            dimensions + 2,
+        ),
+        laplacian_scale: scale(kernels::muller_laplacian(dimensions), dimensions + 2),
+        volume: fluid.volume(scene.dimensions) as f32,
+        density: fluid.materials[0].density as f32,
+        viscosity: fluid.materials[0].viscosity as f32,
+        stiffness: stiffness(fluid, fluid.materials[0].density),
+        background_pressure: fluid.background_pressure as f32,
+        inverse_sound_squared: (1.0 / (sound * sound)) as f32,
+        diffusion: (2.0 * fluid.density_diffusion * half * sound) as f32,
+        artificial_viscosity: (fluid.artificial_viscosity * half * sound) as f32,
+        shifting: (USUAL_SHIFT * fluid.shifting * half * fluid.max_speed) as f32,
+        shift_limit: (LONGEST_SHIFT * fluid.spacing) as f32,
+        kernel_at_spacing: kernels::value(fluid.kernel, dimensions, h, fluid.spacing) as f32,
+        smallest_square: (0.01 * half * half) as f32,
+        first_wall: scene.first_wall(),
+        closed: [closed(0), closed(1), closed(2), 0.0],
+        ..Default::default()
+    }
+}
+
+fn stiffness(fluid: &scene::fluid::Fluid, density: f64) -> f32 {
+    (density * fluid.sound_speed * fluid.sound_speed / f64::from(fluid.gamma)) as f32
+}
+
+pub fn materials(fluid: &scene::fluid::Fluid) -> Vec<Material> {
+    let each = fluid.materials.iter().map(|material| Material {
+        density: material.density as f32,
+        viscosity: material.viscosity as f32,
+        stiffness: stiffness(fluid, material.density),
+    });
+    each.collect()
+}
+
+/// Surface velocity of each boundary particle, and the number of its body.
+pub fn boundary(scene: &Scene) -> Vec<[f32; 4]> {
+    let walls = &scene.walls;
+    let each = walls.surface_velocity.iter().zip(&walls.body);
+    each.map(|(v, &body)| {
+        let number = if body == NO_BODY { -1.0 } else { body as f32 };
+        [v.x, v.y, v.z, number]
+    })
+    .collect()
+}
+
+pub fn measure(scene: &Scene) -> Measure {
+    let Vec3 { x, y, z } = scene.domain.min;
+    Measure {
+        reference: [x, y, z, 0.0],
+        ..Default::default()
+    }
+}

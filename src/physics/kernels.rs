@@ -1,0 +1,183 @@
+//! Smoothing kernels W(r) = σ/hᵈ f(r/h), in f64; `shaders/physics/fluid/kernels/` has the same in f32.
+
+use std::f64::consts::PI;
+
+use crate::scene::model::Kernel;
+
+/// σ of a kernel in one to three dimensions, so that its integral is one.
+pub fn normalization(kernel: Kernel, dimensions: usize) -> f64 {
+    let of = match kernel {
+        // Monaghan 1992.
+        Kernel::CubicSpline => [2.0 / 3.0, 10.0 / (7.0 * PI), 1.0 / PI],
+        // Dehnen and Aly 2012, Table 1; in one dimension the polynomial is another, see `shape`.
+        Kernel::WendlandC2 => [5.0 / 8.0, 7.0 / (4.0 * PI), 21.0 / (16.0 * PI)],
+        Kernel::WendlandC4 => [3.0 / 4.0, 9.0 / (4.0 * PI), 495.0 / (256.0 * PI)],
+        // Morris 1997.
+        Kernel::QuinticSpline => [1.0 / 120.0, 7.0 / (478.0 * PI), 1.0 / (120.0 * PI)],
+        // Poly6 (Müller 2003 in 3D).
+        Kernel::Muller => [35.0 / 32.0, 4.0 / PI, 315.0 / (64.0 * PI)],
+    };
+    of[dimensions - 1]
+}
+
+/// f(q), zero from the kernel's reach on.
+pub fn shape(kernel: Kernel, dimensions: usize, q: f64) -> f64 {
+    if q >= kernel.reach() {
+        return 0.0;
+    }
+    let u = 1.0 - 0.5 * q;
+    match kernel {
+        Kernel::CubicSpline if q < 1.0 => 1.0 - 1.5 * q * q + 0.75 * q * q * q,
+        Kernel::CubicSpline => 0.25 * (2.0 - q).powi(3),
+        Kernel::WendlandC2 if dimensions == 1 => u.powi(3) * (1.5 * q + 1.0),
+        Kernel::WendlandC2 => u.powi(4) * (2.0 * q + 1.0),
+        Kernel::WendlandC4 if dimensions == 1 => u.powi(5) * (2.0 * q * q + 2.5 * q + 1.0),
+        Kernel::WendlandC4 => u.powi(6) * (35.0 / 12.0 * q * q + 3.0 * q + 1.0),
+        Kernel::QuinticSpline => {
+            let term = |end: f64| (end - q).max(0.0).powi(5);
+            term(3.0) - 6.0 * term(2.0) + 15.0 * term(1.0)
+        }
+        Kernel::Muller => (1.0 - q * q).powi(3),
+    }
+}
+
+/// df/dq. Of Müller's kernels, that of the spiky one with its own factor, see [`slope_normalization`].
+pub fn shape_slope(kernel: Kernel, dimensions: usize, q: f64) -> f64 {
+    if q >= kernel.reach() {
+        return 0.0;
+    }
+    let u = 1.0 - 0.5 * q;
+    match kernel {
+        Kernel::CubicSpline if q < 1.0 => -3.0 * q + 2.25 * q * q,
+        Kernel::CubicSpline => -0.75 * (2.0 - q).powi(2),
+        Kernel::WendlandC2 if dimensions == 1 => -3.0 * q * u * u,
+        Kernel::WendlandC2 => -5.0 * q * u.powi(3),
+        Kernel::WendlandC4 if dimensions == 1 => -3.5 * q * (1.0 + 2.0 * q) * u.powi(4),
+        Kernel::WendlandC4 => -14.0 / 3.0 * q * (1.0 + 2.5 * q) * u.powi(5),
+        Kernel::QuinticSpline => {
+            let term = |end: f64| (end - q).max(0.0).powi(4);
+            -5.0 * term(3.0) + 30.0 * term(2.0) - 75.0 * term(1.0)
+        }
+        Kernel::Muller => -3.0 * (1.0 - q).powi(2),
+    }
+}
+
+/// σ of the kernel whose gradient forces use.
+pub fn slope_normalization(kernel: Kernel, dimensions: usize) -> f64 {
+    match kernel {
+        // Spiky (Müller 2003 in 3D).
+        Kernel::Muller => [2.0, 10.0 / PI, 15.0 / PI][dimensions - 1],
+        _ => normalization(kernel, dimensions),
+    }
+}
+
+/// Factor of (1 − q) in the Laplacian of Müller's viscosity kernel, over h^(d+2). Müller 2003 gives it in 3D; in 2D it
+/// is such that the Laplacian of a parabola is right.
+pub fn muller_laplacian(dimensions: usize) -> f64 {
+    match dimensions {
+        2 => 40.0 / PI,
+        _ => 45.0 / PI,
+    }
+}
+
+/// W(r) with smoothing length `h`, m⁻ᵈ.
+pub fn value(kernel: Kernel, dimensions: usize, h: f64, r: f64) -> f64 {
+    normalization(kernel, dimensions) / h.powi(dimensions as i32) * shape(kernel, dimensions, r / h)
+}
+
+/// dW/dr, m⁻ᵈ⁻¹.
+pub fn slope(kernel: Kernel, dimensions: usize, h: f64, r: f64) -> f64 {
+    slope_normalization(kernel, dimensions) / h.powi(dimensions as i32 + 1)
+        * shape_slope(kernel, dimensions, r / h)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const KERNELS: [Kernel; 5] = [
+        Kernel::CubicSpline,
+        Kernel::WendlandC2,
+        Kernel::WendlandC4,
+        Kernel::QuinticSpline,
+        Kernel::Muller,
+    ];
+
+    /// ∫ g(r) dV over a ball of radius `reach`, by Simpson's rule.
+    fn integral(dimensions: usize, reach: f64, g: impl Fn(f64) -> f64) -> f64 {
+        let n = 20_000;
+        let step = reach / f64::from(n);
+        let shell = |r: f64| [2.0, 2.0 * PI * r, 4.0 * PI * r * r][dimensions - 1] * g(r);
+        (0..=n)
+            .map(|i| {
+                let weight = if i == 0 || i == n {
+                    1.0
+                } else if i % 2 == 1 {
+                    4.0
+                } else {
+                    2.0
+                };
+                weight * shell(f64::from(i) * step)
+            })
+            .sum::<f64>()
+            * step
+            / 3.0
+    }
+
+    #[test]
+    fn integrals_are_one() {
+        for kernel in KERNELS {
+            for dimensions in 1..=3 {
+                let h = 0.37;
+                let sum = integral(dimensions, kernel.reach() * h, |r| {
+                    value(kernel, dimensions, h, r)
+                });
+                assert!((sum - 1.0).abs() < 1e-8, "{kernel:?} {dimensions}D: {sum}");
+            }
+        }
+    }
+
+    #[test]
+    fn slopes_are_derivatives() {
+        for kernel in KERNELS.into_iter().filter(|&k| k != Kernel::Muller) {
+            for dimensions in 1..=3 {
+                for i in 1..60 {
+                    let (h, r) = (0.37, f64::from(i) * 0.02);
+                    let step = 1e-6;
+                    let of = |r| value(kernel, dimensions, h, r);
+                    let difference = (of(r + step) - of(r - step)) / (2.0 * step);
+                    let exact = slope(kernel, dimensions, h, r);
+                    assert!(
+                        (difference - exact).abs() < 1e-6 * of(0.0) / h,
+                        "{kernel:?} {dimensions}D at {r}: {difference} {exact}"
+                    );
+                }
+            }
+        }
+    }
+
+    /// −∫ r dW/dr dV = d ∫ W dV: what makes the sum over a linear field give its gradient.
+    #[test]
+    fn gradients_of_linear_fields_are_exact() {
+        for kernel in KERNELS {
+            for dimensions in 1..=3 {
+                let h = 0.37;
+                let moment = integral(dimensions, kernel.reach() * h, |r| {
+                    -r * slope(kernel, dimensions, h, r) / dimensions as f64
+                });
+                assert!((moment - 1.0).abs() < 1e-8, "{kernel:?} {dimensions}D: {moment}");
+            }
+        }
+    }
+
+    #[test]
+    fn mullers_laplacian_is_exact_for_a_parabola() {
+        for dimensions in [2, 3] {
+            let h = 0.37;
+            let laplacian =
+                |r: f64| muller_laplacian(dimensions) / h.powi(dimensions as i32 + 2) * (1.0 - r / h);
+            let sum = integral(dimensions, h, |r| r * r * laplacian(r)) / (2.0 * dimensions as f64);
+            assert!((sum - 1.0).abs() < 1e-8, "{dimensions}D: {sum}");
+        }
+    }
+}

@@ -1,0 +1,317 @@
+//! A fluid with its numbers completed.
+
+use glam::DVec3;
+
+use super::frame::{Frame, Report};
+use super::model::{
+    self, DensityFrom, Flow, FluidSolver, Kernel, NegativePressure, PressureForce, SceneFile, Slip,
+    StartPressure, ViscosityForm,
+};
+use super::text::{number, suggest};
+use super::{Dimensions, Particles};
+
+/// Sound travels so much faster than the fastest expected flow: density then varies by about 1 % (Monaghan 1994).
+const SOUND_OVER_FLOW: f64 = 10.0;
+/// Support over spacing, in 2D and in 3D.
+const USUAL_SUPPORT: [f64; 2] = [3.0, 2.6];
+/// Courant numbers of the time step's limits (Morris 1997).
+const SOUND_SHARE: f64 = 0.25;
+const VISCOUS_SHARE: f64 = 0.125;
+const FORCE_SHARE: f64 = 0.25;
+
+/// A weakly compressible fluid; SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fluid {
+    pub solver: FluidSolver,
+    /// Of particles at rest, metres.
+    pub spacing: f64,
+    /// At least one; particles carry an index into it where there are several.
+    pub materials: Vec<Material>,
+    pub kernel: Kernel,
+    /// Where the kernel ends, metres: the search radius.
+    pub support: f64,
+    /// m/s.
+    pub max_speed: f64,
+    pub sound_speed: f64,
+    pub gamma: u32,
+    /// Pa.
+    pub background_pressure: f64,
+    pub density_from: DensityFrom,
+    pub density_diffusion: f64,
+    pub pressure_force: PressureForce,
+    pub negative_pressure: NegativePressure,
+    pub gradient_correction: bool,
+    pub shifting: f64,
+    pub artificial_viscosity: f64,
+    pub viscosity_form: ViscosityForm,
+    pub slip: Slip,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Material {
+    /// At rest, kg/m³.
+    pub density: f64,
+    /// Dynamic, Pa·s.
+    pub viscosity: f64,
+}
+
+impl Kernel {
+    /// Where it ends, as a multiple of its smoothing length.
+    pub fn reach(self) -> f64 {
+        match self {
+            Self::CubicSpline | Self::WendlandC2 | Self::WendlandC4 => 2.0,
+            Self::QuinticSpline => 3.0,
+            Self::Muller => 1.0,
+        }
+    }
+}
+
+/// What a fluid's speeds are derived from.
+pub struct Speeds<'a> {
+    /// Local positions and velocities at the start.
+    pub particles: &'a Particles,
+    pub gravity: DVec3,
+    /// Fastest wall, obstacle or emitter, m/s.
+    pub walls: f64,
+}
+
+impl Fluid {
+    pub fn new(given: &model::Fluid, frame: &Frame, speeds: &Speeds, report: &mut Report) -> Self {
+        let max_speed = given.max_speed.unwrap_or_else(|| expected_speed(frame, speeds));
+        let sound_speed = given.sound_speed.unwrap_or(SOUND_OVER_FLOW * max_speed);
+        if max_speed <= 0.0 && given.sound_speed.is_none() {
+            report.problem(
+                "fluid",
+                "nothing in the scene says how fast the fluid will be",
+                "give `max_speed`, m/s",
+            );
+        }
+        if sound_speed < 5.0 * max_speed {
+            report.notes.push(format!(
+                "fluid.sound_speed {} m/s is less than five times the expected speed {} m/s: density will vary by more \
+                 than 4 %",
+                number(sound_speed),
+                number(max_speed)
+            ));
+        }
+        let kernel = given.kernel.unwrap_or(match given.solver {
+            FluidSolver::Sph => Kernel::Muller,
+            FluidSolver::Wcsph => Kernel::default(),
+        });
+        let density_from = given.density_from.unwrap_or(match given.solver {
+            FluidSolver::Sph => DensityFrom::Summation,
+            FluidSolver::Wcsph => DensityFrom::Continuity,
+        });
+        let usual = match density_from {
+            DensityFrom::Summation => 0.0,
+            DensityFrom::Continuity => 0.1,
+        };
+        if density_from == DensityFrom::Summation && given.density_diffusion.is_some_and(|d| d > 0.0) {
+            report.problem(
+                "fluid.density_diffusion",
+                "density comes from a summation, which has no diffusion",
+                "leave it out, or set fluid.density_from to `continuity`",
+            );
+        }
+        if kernel == Kernel::Muller && density_from == DensityFrom::Continuity {
+            report.problem(
+                "fluid.kernel",
+                "`muller` has one kernel for density and another for forces, which `continuity` cannot use",
+                "choose another kernel, or set fluid.density_from to `summation`",
+            );
+        }
+        let support = given
+            .support
+            .unwrap_or(USUAL_SUPPORT[frame.dimensions.count() - 2]);
+        let materials = match &given.materials[..] {
+            [] => vec![Material {
+                density: given.density,
+                viscosity: given.viscosity,
+            }],
+            several => several
+                .iter()
+                .map(|m| Material {
+                    density: m.density,
+                    viscosity: m.viscosity,
+                })
+                .collect(),
+        };
+        for (i, material) in given.materials.iter().enumerate() {
+            if given.materials[..i]
+                .iter()
+                .any(|other| other.name == material.name)
+            {
+                report.problem(
+                    format!("fluid.materials[{i}].name"),
+                    format!("another material is called \"{}\" too", material.name),
+                    "give each its own",
+                );
+            }
+        }
+        Self {
+            solver: given.solver,
+            spacing: given.spacing,
+            materials,
+            kernel,
+            support: support * given.spacing,
+            max_speed,
+            sound_speed,
+            gamma: given.gamma.unwrap_or(match given.solver {
+                FluidSolver::Sph => 1,
+                FluidSolver::Wcsph => 7,
+            }),
+            background_pressure: given.background_pressure,
+            density_from,
+            density_diffusion: given.density_diffusion.unwrap_or(usual),
+            pressure_force: given.pressure_force,
+            negative_pressure: given.negative_pressure,
+            gradient_correction: given.gradient_correction,
+            shifting: given.shifting,
+            artificial_viscosity: given.artificial_viscosity,
+            viscosity_form: given.viscosity_form,
+            slip: given.slip,
+        }
+    }
+
+    /// h, metres.
+    pub fn smoothing(&self) -> f64 {
+        self.support / self.kernel.reach()
+    }
+
+    /// Of a particle at rest, m³ (m² in 2D).
+    pub fn volume(&self, dimensions: Dimensions) -> f64 {
+        self.spacing.powi(dimensions.count() as i32)
+    }
+
+    /// The longest stable steps, seconds, and what each keeps: sound, viscosity and weight (Morris 1997).
+    pub fn step_limits(&self, gravity: f64) -> [(f64, &'static str); 3] {
+        // Müller's kernels end at their smoothing length, which would count for two of the others'.
+        let h = self.support / self.kernel.reach().max(2.0);
+        let kinematic = self.materials.iter().map(|m| m.viscosity / m.density);
+        let fastest = kinematic.fold(0.0, f64::max) + self.artificial_viscosity * h * self.sound_speed / 8.0;
+        [
+            (
+                SOUND_SHARE * h / (self.sound_speed + self.max_speed),
+                "speed of sound",
+            ),
+            (VISCOUS_SHARE * h * h / fastest, "viscosity"),
+            (FORCE_SHARE * (h / gravity).sqrt(), "gravity"),
+        ]
+    }
+
+    /// (ρ/ρ₀) − 1 at a pressure above the background, Pa: the inverse of the equation of state.
+    pub fn excess_at(&self, density: f64, pressure: f64) -> f64 {
+        let gamma = f64::from(self.gamma);
+        let stiffness = density * self.sound_speed * self.sound_speed / gamma;
+        ((pressure / stiffness).ln_1p() / gamma).exp_m1()
+    }
+}
+
+/// That of a fall from the highest particle to the domain's floor, or of what moves at the start.
+fn expected_speed(frame: &Frame, speeds: &Speeds) -> f64 {
+    let fastest = speeds.particles.velocity.iter().map(|v| f64::from(v.length()));
+    let fastest = fastest.fold(speeds.walls, f64::max);
+    let closed = |axis: usize| {
+        frame.sides[axis]
+            .iter()
+            .all(|&side| side != model::Wall::Periodic)
+    };
+    // Along a periodic direction gravity drives a flow, whose speed cannot be told from heights.
+    let g = speeds.gravity;
+    let pull = DVec3::from([0, 1, 2].map(|axis| if closed(axis) { g[axis] } else { 0.0 }));
+    let height = |p: DVec3| -p.dot(pull);
+    let corner = |low: bool| {
+        DVec3::from([0, 1, 2].map(|k| {
+            if (pull[k] < 0.0) == low {
+                frame.min[k]
+            } else {
+                frame.max[k]
+            }
+        }))
+    };
+    let floor = height(corner(true));
+    let highest = speeds.particles.position.iter().map(|p| height(p.as_dvec3()));
+    let highest = highest.fold(f64::NEG_INFINITY, f64::max);
+    let top = if highest.is_finite() {
+        highest
+    } else {
+        height(corner(false))
+    };
+    let fall = (2.0 * (top - floor).max(0.0)).sqrt();
+    (fall * fall + fastest * fastest).sqrt()
+}
+
+/// Index of the material that a body or emitter names.
+pub fn material(path: &str, name: Option<&str>, file: &SceneFile, report: &mut Report) -> u32 {
+    let materials = file.fluid.as_ref().map_or(&[][..], |fluid| &fluid.materials[..]);
+    let names = materials.iter().map(|material| material.name.as_str());
+    match name {
+        None => 0,
+        Some(name) => match names.clone().position(|known| known == name) {
+            Some(index) => index as u32,
+            None => {
+                let mend = match materials {
+                    [] => "leave it out, or describe it in fluid.materials".to_owned(),
+                    _ => suggest(name, names),
+                };
+                report.problem(path, format!("no material is called \"{name}\""), mend);
+                0
+            }
+        },
+    }
+}
+
+/// Velocity (m/s) and pressure over density (m²/s²) of a flow at a point of the scene, metres.
+pub fn flow_at(flow: &Flow, dimensions: Dimensions, at: DVec3) -> (DVec3, f64) {
+    match *flow {
+        Flow::TaylorGreen { speed, wavelength } => {
+            let k = std::f64::consts::TAU / wavelength;
+            let ((sx, cx), (sy, cy), (sz, cz)) =
+                ((k * at.x).sin_cos(), (k * at.y).sin_cos(), (k * at.z).sin_cos());
+            let _ = sz;
+            let (c2x, c2y, c2z) = (
+                (2.0 * k * at.x).cos(),
+                (2.0 * k * at.y).cos(),
+                (2.0 * k * at.z).cos(),
+            );
+            match dimensions {
+                // u = −U cos kx sin ky, v = U sin kx cos ky, p = −ρU²/4 (cos 2kx + cos 2ky).
+                Dimensions::Two => (
+                    DVec3::new(-cx * sy, sx * cy, 0.0) * speed,
+                    -0.25 * speed * speed * (c2x + c2y),
+                ),
+                // u = U sin kx cos ky cos kz, v = −U cos kx sin ky cos kz (Brachet 1983).
+                Dimensions::Three => (
+                    DVec3::new(sx * cy * cz, -cx * sy * cz, 0.0) * speed,
+                    speed * speed / 16.0 * (c2x + c2y) * (c2z + 2.0),
+                ),
+            }
+        }
+    }
+}
+
+/// Pressures of a body's particles at the start, Pa, from those of its flow and of the fluid that stands above.
+pub fn start_pressures(
+    body: &model::Body,
+    positions: &[DVec3],
+    density: f64,
+    gravity: DVec3,
+    frame: &Frame,
+    spacing: f64,
+) -> Vec<f64> {
+    let mut pressures = vec![0.0; positions.len()];
+    if let Some(flow) = &body.flow {
+        for (pressure, position) in pressures.iter_mut().zip(positions) {
+            *pressure += density * flow_at(flow, frame.dimensions, *position + frame.origin).1;
+        }
+    }
+    if body.pressure == StartPressure::Hydrostatic {
+        let height = |p: &DVec3| -p.dot(gravity);
+        let top =
+            positions.iter().map(height).fold(f64::NEG_INFINITY, f64::max) + gravity.length() * spacing / 2.0;
+        for (pressure, position) in pressures.iter_mut().zip(positions) {
+            *pressure += density * (top - height(position));
+        }
+    }
+    pressures
+}

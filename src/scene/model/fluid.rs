@@ -1,0 +1,180 @@
+//! Fluids in a scene file.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A weakly compressible fluid: smoothed particle hydrodynamics (SPH).
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Fluid {
+    #[serde(default)]
+    pub solver: FluidSolver,
+    /// Distance of particles at rest, metres. Each has the mass of a square or cube of this side.
+    #[schemars(range(min = 1e-9, max = 1e6))]
+    pub spacing: f64,
+    /// At rest, kg/m³ (kg/m² times one metre in 2D).
+    #[serde(default = "water")]
+    #[schemars(range(min = 1e-6, max = 1e6))]
+    pub density: f64,
+    /// Dynamic viscosity, Pa·s.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub viscosity: f64,
+    #[serde(default)]
+    pub viscosity_form: ViscosityForm,
+    /// Artificial viscosity α (Monaghan 1992); keeps impacts stable.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub artificial_viscosity: f64,
+    /// m/s. Ten times the fastest expected speed when left out, so that density varies by about one percent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-9, max = 1e9))]
+    pub sound_speed: Option<f64>,
+    /// Fastest speed to be expected, m/s; from the scene's heights, velocities and gravity when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-9, max = 1e9))]
+    pub max_speed: Option<f64>,
+    /// Exponent γ of the equation of state p = (ρ₀c²/γ) ((ρ/ρ₀)^γ − 1) (Tait; Monaghan 1994); 7 for `wcsph` and 1 for
+    /// `sph` when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 7))]
+    pub gamma: Option<u32>,
+    /// Pressure at rest density p₀, Pa.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e12))]
+    pub background_pressure: f64,
+    /// The kernel; for `sph` Müller's three when left out, otherwise `wendland_c2`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kernel: Option<Kernel>,
+    /// Where the kernel ends, as a multiple of `spacing`; 3 in 2D and 2.6 in 3D when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1.5, max = 6.0))]
+    pub support: Option<f64>,
+    /// How density follows the flow; `summation` for `sph` and `continuity` for `wcsph` when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density_from: Option<DensityFrom>,
+    /// Strength δ of the diffusion of density that keeps `continuity` free of noise (Fourtakas 2019); 0 is none, and
+    /// 0.1 when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub density_diffusion: Option<f64>,
+    #[serde(default)]
+    pub pressure_force: PressureForce,
+    #[serde(default)]
+    pub negative_pressure: NegativePressure,
+    /// Whether gradients are corrected to be exact for linear fields (Randles and Libersky 1996).
+    #[serde(default)]
+    pub gradient_correction: bool,
+    /// Strength of particle shifting, which keeps particles evenly spread (Lind 2012); 0 is none, 0.5 usual. For flows
+    /// without a free surface.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 2.0))]
+    pub shifting: f64,
+    /// What fluid does at walls.
+    #[serde(default)]
+    pub slip: Slip,
+    /// More fluids than one; bodies and emitters name theirs. The keys `density` and `viscosity` above hold for those
+    /// that name none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub materials: Vec<Material>,
+}
+
+fn water() -> f64 {
+    1000.0
+}
+
+/// One of several fluids.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    pub name: String,
+    /// At rest, kg/m³.
+    #[schemars(range(min = 1e-6, max = 1e6))]
+    pub density: f64,
+    /// Dynamic viscosity, Pa·s.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub viscosity: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FluidSolver {
+    /// Müller 2003 as Harada 2007 used it: density by summation, linear pressure, a kernel for each force.
+    Sph,
+    /// Weakly compressible SPH (Monaghan 1994; Rojas 2013).
+    #[default]
+    Wcsph,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Kernel {
+    /// Monaghan and Lattanzio 1985.
+    CubicSpline,
+    /// Wendland 1995, once more often differentiable than the cubic spline and free of pairing.
+    #[default]
+    WendlandC2,
+    /// Wendland 1995.
+    WendlandC4,
+    /// Schoenberg 1946; Morris 1997.
+    QuinticSpline,
+    /// Poly6 for density, spiky for pressure, and one for viscosity (Müller 2003).
+    Muller,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ViscosityForm {
+    /// Differences of velocities along pairs (Morris 1997; the listing of Rojas 2013).
+    #[default]
+    Laplacian,
+    /// The divergence of the viscous stress, which takes one more pass (Rojas 2013, Eq. 4).
+    Stress,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DensityFrom {
+    /// Sum of the masses around, weighted by the kernel (Rojas 2013, Eq. 1).
+    Summation,
+    /// The equation of continuity; right at free surfaces too.
+    #[default]
+    Continuity,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PressureForce {
+    /// (pᵢ + pⱼ) / (ρᵢ ρⱼ) (Rojas 2013); stable between fluids of different density.
+    #[default]
+    Symmetric,
+    /// pᵢ/ρᵢ² + pⱼ/ρⱼ² (Monaghan 1992).
+    Monaghan,
+    /// (pⱼ − pᵢ) / (ρᵢ ρⱼ): exact for even pressure, but forces of a pair do not cancel. For flows without a free
+    /// surface, with `gradient_correction` and `shifting`.
+    Difference,
+}
+
+/// What negative pressures do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum NegativePressure {
+    /// They stay, and pull.
+    Keep,
+    /// They count as zero: fluid tears instead of pulling.
+    #[default]
+    Clamp,
+    /// They act through the difference of pressures, which cannot clump particles (Sun 2018).
+    Control,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Slip {
+    /// It sticks.
+    #[default]
+    NoSlip,
+    /// It slides without friction.
+    FreeSlip,
+}

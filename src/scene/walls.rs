@@ -1,0 +1,273 @@
+//! Boundary particles: layers of particles inside of walls and obstacles, which carry a fluid's pressure and velocity
+//! on (Adami 2012).
+
+use glam::{DVec3, Vec3};
+
+use super::frame::{Frame, Report};
+use super::model::{SceneFile, Wall};
+use super::obstacles::Obstacle;
+use super::text::number;
+use super::{Collider, Dimensions};
+
+/// Boundary particles; they follow the fluid's on the device and in ids.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Walls {
+    /// Local, metres, at time zero.
+    pub position: Vec<Vec3>,
+    /// Velocity of the surface besides its body's motion, m/s.
+    pub surface_velocity: Vec<Vec3>,
+    /// Index of the collider that each belongs to; `NO_BODY` for the domain's sides.
+    pub body: Vec<u32>,
+    /// How far they reach beyond the domain's sides, metres.
+    pub depth: f64,
+}
+
+/// Of boundary particles that belong to the domain's sides, which never move.
+pub const NO_BODY: u32 = u32::MAX;
+
+impl Walls {
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+}
+
+/// Samples every side with `particles` and every collider, as deep as the kernel reaches.
+pub fn sample(
+    file: &SceneFile,
+    frame: &Frame,
+    colliders: &[Collider],
+    support: f64,
+    report: &mut Report,
+) -> Walls {
+    let spacing = 2.0 * file.radius();
+    let layers = (support / spacing - 1e-9).ceil();
+    let mut walls = Walls {
+        depth: layers * spacing,
+        ..Walls::default()
+    };
+    domain_sides(file, frame, spacing, layers as i64, &mut walls, report);
+    for (index, collider) in colliders.iter().enumerate() {
+        let given = &file.colliders[index];
+        let depth = walls.depth;
+        for point in inside(collider, frame, spacing, depth) {
+            let turn = match (&collider.shape, given.spin) {
+                (super::ColliderShape::Sphere { center, .. }, Some(spin)) => {
+                    let arm = point - center.as_dvec3();
+                    DVec3::new(-arm.y, arm.x, 0.0) * spin
+                }
+                _ => DVec3::ZERO,
+            };
+            walls.position.push(point.as_vec3());
+            walls.surface_velocity.push(turn.as_vec3());
+            walls.body.push(index as u32);
+        }
+    }
+    walls
+}
+
+/// A lattice that goes on from the fluid's: its points stand half a spacing off the sides.
+fn domain_sides(
+    file: &SceneFile,
+    frame: &Frame,
+    spacing: f64,
+    layers: i64,
+    walls: &mut Walls,
+    report: &mut Report,
+) {
+    let velocities = file.domain.side_velocities.all();
+    let velocity = [0, 1, 2].map(|axis: usize| {
+        [0, 1].map(|end: usize| {
+            let (name, given) = velocities[axis][end];
+            let path = format!("domain.side_velocities.{name}");
+            let velocity = report.optional(&path, given, frame.dimensions);
+            if given.is_some() && frame.sides[axis][end] != Wall::Particles {
+                let mend = format!("leave it out, or set domain.sides.{name} to `particles`");
+                report.problem(path, "this side has no boundary particles to carry it", mend);
+            }
+            velocity
+        })
+    });
+    let mut first = [0i64; 3];
+    let mut last = [1i64; 3];
+    let mut step = [0.0; 3];
+    for (axis, _) in frame.axes() {
+        let length = frame.max[axis] - frame.min[axis];
+        let count = (length / spacing).round().max(1.0);
+        // Along an axis whose length is no multiple of the spacing, points stand a little nearer or farther.
+        step[axis] = length / count;
+        last[axis] = count as i64;
+        if frame.sides[axis][0] == Wall::Particles {
+            first[axis] = -layers;
+        }
+        if frame.sides[axis][1] == Wall::Particles {
+            last[axis] += layers;
+        }
+    }
+    let cells = [0, 1, 2]
+        .map(|axis: usize| (step[axis] > 0.0).then(|| (frame.max[axis] - frame.min[axis]) / step[axis]));
+    let place = |axis: usize, tick: i64| match cells[axis] {
+        Some(count) if tick as f64 >= count - 0.5 => {
+            frame.max[axis] + (tick as f64 - count.round() + 0.5) * spacing
+        }
+        Some(_) if tick < 0 => frame.min[axis] + (tick as f64 + 0.5) * spacing,
+        Some(_) => frame.min[axis] + (tick as f64 + 0.5) * step[axis],
+        None => 0.0,
+    };
+    let beyond = |axis: usize, tick: i64| match cells[axis] {
+        Some(_) if tick < 0 => Some(0),
+        Some(count) if tick as f64 >= count - 0.5 => Some(1),
+        _ => None,
+    };
+    for y in first[1]..last[1] {
+        for z in first[2]..last[2] {
+            for x in first[0]..last[0] {
+                let tick = [x, y, z];
+                let sides: Vec<(usize, usize)> = (0..3)
+                    .filter_map(|axis| beyond(axis, tick[axis]).map(|end| (axis, end)))
+                    .collect();
+                if sides.is_empty() {
+                    continue;
+                }
+                let point = DVec3::from([0, 1, 2].map(|axis| place(axis, tick[axis])));
+                // In an edge or a corner, a side that slides along itself keeps its velocity to itself.
+                let slides = match sides[..] {
+                    [(axis, end)] => velocity[axis][end],
+                    _ => DVec3::ZERO,
+                };
+                walls.position.push(point.as_vec3());
+                walls.surface_velocity.push(slides.as_vec3());
+                walls.body.push(NO_BODY);
+            }
+        }
+    }
+    let uneven = frame.axes().find(|(axis, _)| {
+        let periodic = frame.sides[*axis][0] == Wall::Periodic;
+        periodic && (step[*axis] / spacing - 1.0).abs() > 1e-3
+    });
+    if let Some((axis, name)) = uneven {
+        report.notes.push(format!(
+            "the domain's {name} extent is {} spacings; a fluid that fills it is not evenly spread",
+            number((frame.max[axis] - frame.min[axis]) / spacing)
+        ));
+    }
+}
+
+/// Points inside of an obstacle, no deeper than `depth` below its surface and inside the domain, where fluid can be.
+fn inside(collider: &Collider, frame: &Frame, spacing: f64, depth: f64) -> Vec<DVec3> {
+    use super::ColliderShape::*;
+    let offset = collider
+        .path
+        .first()
+        .map_or(DVec3::ZERO, |(_, offset)| offset.as_dvec3());
+    let points = match &collider.shape {
+        Box { min, max } => box_shell(min.as_dvec3(), max.as_dvec3(), frame.dimensions, spacing, depth),
+        Sphere { center, radius } => sphere_shells(
+            center.as_dvec3(),
+            f64::from(*radius),
+            frame.dimensions,
+            spacing,
+            depth,
+        ),
+        Plane { .. } | Mesh(_) => lattice_shell(collider, frame, spacing, depth),
+    };
+    points.into_iter().map(|point| point + offset).collect()
+}
+
+/// Points of a box's own lattice, half a spacing below its faces.
+fn box_shell(min: DVec3, max: DVec3, dimensions: Dimensions, spacing: f64, depth: f64) -> Vec<DVec3> {
+    let axes = dimensions.count();
+    let mut ticks: [Vec<f64>; 3] = [vec![0.0], vec![0.0], vec![0.0]];
+    for (axis, ticks) in ticks.iter_mut().enumerate().take(axes) {
+        let length = max[axis] - min[axis];
+        let count = (length / spacing).round().max(1.0);
+        *ticks = (0..count as i64)
+            .map(|k| min[axis] + (k as f64 + 0.5) * length / count)
+            .collect();
+    }
+    let mut points = Vec::new();
+    for &y in &ticks[1] {
+        for &z in &ticks[2] {
+            for &x in &ticks[0] {
+                let point = DVec3::new(x, y, z);
+                let below = (0..axes)
+                    .map(|axis| (point[axis] - min[axis]).min(max[axis] - point[axis]))
+                    .fold(f64::INFINITY, f64::min);
+                if below < depth {
+                    points.push(point);
+                }
+            }
+        }
+    }
+    points
+}
+
+/// Rings in 2D, Fibonacci spheres in 3D, one spacing apart.
+fn sphere_shells(center: DVec3, radius: f64, dimensions: Dimensions, spacing: f64, depth: f64) -> Vec<DVec3> {
+    use std::f64::consts::{PI, TAU};
+    let mut points = Vec::new();
+    let mut below = 0.5 * spacing;
+    while below < depth && below < radius {
+        let r = radius - below;
+        match dimensions {
+            Dimensions::Two => {
+                let count = (TAU * r / spacing).round().max(1.0);
+                points.extend((0..count as u32).map(|k| {
+                    let (sin, cos) = (TAU * f64::from(k) / count).sin_cos();
+                    center + r * DVec3::new(cos, sin, 0.0)
+                }));
+            }
+            Dimensions::Three => {
+                let count = (4.0 * PI * r * r / (spacing * spacing)).round().max(1.0);
+                let golden = PI * (5f64.sqrt() - 1.0);
+                points.extend((0..count as u32).map(|k| {
+                    let y = 1.0 - 2.0 * (f64::from(k) + 0.5) / count;
+                    let (sin, cos) = (golden * f64::from(k)).sin_cos();
+                    let ring = (1.0 - y * y).max(0.0).sqrt();
+                    center + r * DVec3::new(cos * ring, y, sin * ring)
+                }));
+            }
+        }
+        below += spacing;
+    }
+    points
+}
+
+/// Points of the fluid's lattice inside of a plane's or mesh's solid.
+fn lattice_shell(collider: &Collider, frame: &Frame, spacing: f64, depth: f64) -> Vec<DVec3> {
+    let obstacle = Obstacle::new(&collider.shape, frame.dimensions);
+    let around = DVec3::splat(depth);
+    let (low, high) = match &collider.shape {
+        super::ColliderShape::Mesh(mesh) => {
+            let (low, high) = mesh.bounds();
+            (low.max(frame.min - around), high.min(frame.max + around))
+        }
+        _ => (frame.min - around, frame.max + around),
+    };
+    let ticks = |axis: usize| -> Vec<f64> {
+        if axis >= frame.dimensions.count() {
+            return vec![0.0];
+        }
+        let first = ((low[axis] - frame.min[axis]) / spacing).floor() as i64;
+        let last = ((high[axis] - frame.min[axis]) / spacing).ceil() as i64;
+        (first..last)
+            .map(|k| frame.min[axis] + (k as f64 + 0.5) * spacing)
+            .collect()
+    };
+    let [xs, ys, zs] = [ticks(0), ticks(1), ticks(2)];
+    let mut points = Vec::new();
+    for &y in &ys {
+        for &z in &zs {
+            for &x in &xs {
+                let point = DVec3::new(x, y, z);
+                if obstacle.touches(point, 0.0) && !obstacle.is_deeper(point, depth) {
+                    points.push(point);
+                }
+            }
+        }
+    }
+    points
+}
