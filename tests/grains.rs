@@ -185,6 +185,7 @@ fn collision(overrides: &[&str], speed: f32) -> Scene {
     scene.particles = Particles {
         position: vec![Vec3::new(-gap, 0.1, 0.05), Vec3::new(gap, 0.1, 0.05)],
         velocity: vec![Vec3::X * speed, -Vec3::X * speed],
+        ..Particles::default()
     };
     scene.capacity = 2;
     scene

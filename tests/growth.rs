@@ -30,7 +30,11 @@ fn scene(dimensions: usize, choices: &[&str], position: Vec<Vec3>, velocity: Vec
     let all: Vec<&str> = open.iter().chain(choices).copied().collect();
     let mut scene = common::scene(dimensions, &all);
     scene.capacity = position.len() as u32;
-    scene.particles = Particles { position, velocity };
+    scene.particles = Particles {
+        position,
+        velocity,
+        ..Particles::default()
+    };
     scene
 }
 

@@ -52,6 +52,7 @@ fn scene_with(
     scene.particles = Particles {
         position: points.to_vec(),
         velocity: vec![Vec3::ZERO; points.len()],
+        ..Particles::default()
     };
     scene.capacity = points.len() as u32;
     scene
@@ -100,7 +101,7 @@ fn check_scene(label: &str, scene: &Scene) {
     let mut simulation = common::simulate(scene, &Wanted::default());
     simulation.next_frame().expect("the first search");
     let found = simulation.neighbor_lists().expect("neighbors");
-    let (start, ids) = brute_force(points, (2.0 * scene.grains.radius) as f32);
+    let (start, ids) = brute_force(points, (2.0 * scene.radius()) as f32);
     assert_eq!(found.start, start, "{label}: numbers of neighbors");
     assert_eq!(found.ids, ids, "{label}: neighbors");
 }
@@ -111,7 +112,7 @@ fn corners(dimensions: usize) -> (Vec3, Vec3, f32) {
     (
         scene.domain.min,
         scene.domain.max,
-        (2.0 * scene.grains.radius) as f32,
+        (2.0 * scene.radius()) as f32,
     )
 }
 
@@ -402,7 +403,7 @@ fn folded_dispatches_do_the_same_work() {
         let plan = Plan::new(&scene, &gpu.limits, &Wanted::default()).unwrap();
         let mut folded = Simulation::new(gpu, &scene, &plan).unwrap();
         folded.next_frame().unwrap();
-        let (start, ids) = brute_force(&points, (2.0 * scene.grains.radius) as f32);
+        let (start, ids) = brute_force(&points, (2.0 * scene.radius()) as f32);
         let found = folded.neighbor_lists().unwrap();
         assert!(found.start == start && found.ids == ids, "{grid:?}");
     }
@@ -465,7 +466,7 @@ fn without_a_canonical_order_neighbors_are_the_same() {
         let mut simulation = common::simulate(&scene, &Wanted::default());
         simulation.next_frame().unwrap();
         let found = simulation.neighbor_lists().unwrap();
-        let (start, ids) = brute_force(&points, (2.0 * scene.grains.radius) as f32);
+        let (start, ids) = brute_force(&points, (2.0 * scene.radius()) as f32);
         assert!(found.start == start && found.ids == ids, "{grid:?}");
     }
 }

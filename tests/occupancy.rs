@@ -22,6 +22,7 @@ fn scene_of(dimensions: usize, axis: &str, points: &[Vec3]) -> Scene {
     scene.particles = Particles {
         position: points.to_vec(),
         velocity: vec![Vec3::ZERO; points.len()],
+        ..Particles::default()
     };
     scene.capacity = points.len() as u32;
     scene

@@ -29,6 +29,7 @@ fn particles(places: &[Vec3], speeds: &[f32]) -> Particles {
     Particles {
         position: places.to_vec(),
         velocity: speeds.iter().map(|&speed| Vec3::X * speed).collect(),
+        ..Particles::default()
     }
 }
 
@@ -79,7 +80,7 @@ fn front(scene: &Scene, places: &[Vec3], pixel: (f64, f64)) -> Option<(usize, f6
         + sight.up * (sight.half.y * (1.0 - 2.0 * pixel.1 / height - sight.shift.y));
     let hits = places.iter().enumerate().filter_map(|(i, place)| {
         let away = (place.as_dvec3() - at).truncate().length_squared();
-        let depth2 = scene.grains.radius.powi(2) - away;
+        let depth2 = scene.radius().powi(2) - away;
         (depth2 > 0.0).then(|| (i, f64::from(place.z) + depth2.sqrt()))
     });
     hits.max_by(|a, b| a.1.total_cmp(&b.1))

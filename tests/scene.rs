@@ -182,7 +182,7 @@ fn restitution_and_duration_are_those_of_the_oscillator() {
         let contact = scene.grains().unwrap().contact;
         let (after, duration) = rebound(contact.spring, contact.damping, mass / 2.0);
         assert!((after - e).abs() < 1e-3, "two grains: {after} for {e}");
-        assert!((scene.time.contact_duration / duration - 1.0).abs() < 1e-3);
+        assert!((scene.time.contact_duration.unwrap() / duration - 1.0).abs() < 1e-3);
         let (after, _) = rebound(contact.spring, contact.wall_damping, mass);
         assert!((after - e).abs() < 1e-3, "wall: {after} for {e}");
     }
@@ -224,25 +224,25 @@ fn steps_resolve_the_contact_and_land_on_frames() {
     assert_eq!(time.frames, 21);
     assert_eq!(time.limited_by, "contact duration");
     assert_near(time.step * f64::from(time.steps_per_frame), 0.1);
-    assert!(time.step <= time.contact_duration / 40.0);
-    assert!(0.1 / f64::from(time.steps_per_frame - 1) > time.contact_duration / 40.0);
+    assert!(time.step <= time.contact_duration.unwrap() / 40.0);
+    assert!(0.1 / f64::from(time.steps_per_frame - 1) > time.contact_duration.unwrap() / 40.0);
 }
 
 #[test]
 fn an_event_that_stiffens_contacts_shortens_every_step() {
     let mut given = block();
-    let soft = valid(&given, &[]).time.contact_duration;
+    let soft = valid(&given, &[]).time.contact_duration.unwrap();
     given["events"] = json!([{ "at": 1, "set": { "spring": 4000 } }]);
-    assert_near(valid(&given, &[]).time.contact_duration, soft / 2.0);
+    assert_near(valid(&given, &[]).time.contact_duration.unwrap(), soft / 2.0);
     given["events"] = json!([{ "at": 3, "set": { "spring": 4000 } }]);
     let late = valid(&given, &[]);
-    assert_near(late.time.contact_duration, soft);
+    assert_near(late.time.contact_duration.unwrap(), soft);
     assert_eq!(late.notes.len(), 1);
 }
 
 #[test]
 fn the_scenes_step_is_kept_or_refused_with_one_that_fits() {
-    let duration = valid(&block(), &[]).time.contact_duration;
+    let duration = valid(&block(), &[]).time.contact_duration.unwrap();
     let kept = valid(&block(), &[&format!("time.step={}", duration / 25.0)]).time;
     assert_eq!(kept.limited_by, "scene's step");
     assert_near(kept.step, 0.1 / (0.1 / (duration / 25.0)).ceil());
@@ -267,7 +267,10 @@ fn an_overdamped_contact_has_a_finite_duration() {
     let mut given = block();
     given["grains"] = json!({ "radius": 0.05, "density": 1000, "spring": 1000, "damping": 1000 });
     let scene = valid(&given, &[]);
-    assert_near(scene.time.contact_duration, PI * ball_mass() / 2.0 / 1000.0);
+    assert_near(
+        scene.time.contact_duration.unwrap(),
+        PI * ball_mass() / 2.0 / 1000.0,
+    );
 }
 
 // Places

@@ -10,19 +10,73 @@ use sliceflow::physics::layout::SHARED;
 use sliceflow::plan::{Plan, Wanted};
 use sliceflow::scene::column::{COLUMNS, Source};
 
-/// Plans that together use every flag and role.
-fn plans() -> Vec<Plan> {
-    let wanted = Wanted {
+fn wanted(without: &str) -> Wanted {
+    let measured = COLUMNS.iter().copied().filter(|c| c.source == Source::Measured);
+    Wanted {
         statistics: true,
-        columns: COLUMNS
-            .iter()
-            .copied()
-            .filter(|c| c.source == Source::Measured)
-            .collect(),
+        columns: measured.filter(|c| c.name != without).collect(),
         view: None,
         voxel_map: Some(64),
-    };
+    }
+}
+
+/// Plans of fluids that together use every flag and role.
+fn fluid_plans() -> Vec<Plan> {
+    let solvers: [&[&str]; 8] = [
+        &["fluid.solver=sph", "fluid.viscosity=0.1"],
+        &[
+            "fluid.density_from=summation",
+            "fluid.pressure_force=monaghan",
+            "fluid.kernel=cubic_spline",
+        ],
+        &[
+            "fluid.negative_pressure=control",
+            "fluid.artificial_viscosity=0.1",
+        ],
+        &["fluid.viscosity=0.1", "fluid.viscosity_form=stress"],
+        &[
+            "fluid.viscosity=0.1",
+            "fluid.slip=free_slip",
+            "fluid.kernel=wendland_c4",
+        ],
+        &[
+            "fluid.viscosity=0.1",
+            "fluid.viscosity_form=stress",
+            "fluid.slip=free_slip",
+            "fluid.gradient_correction=true",
+        ],
+        &[
+            "fluid.viscosity=0.1",
+            "fluid.viscosity_form=stress",
+            "fluid.gradient_correction=true",
+            "fluid.pressure_force=difference",
+            "fluid.shifting=1",
+            "fluid.kernel=quintic_spline",
+            "fluid.negative_pressure=keep",
+        ],
+        &[
+            "fluid.viscosity=0.1",
+            "fluid.materials=[{\"name\":\"water\",\"density\":1000},{\"name\":\"oil\",\"density\":900,\"viscosity\":1}]",
+        ],
+    ];
     let mut plans = Vec::new();
+    for dimensions in [2, 3] {
+        for solver in solvers {
+            for walls in ["particles", "periodic"] {
+                let walls = format!("domain.walls={walls}");
+                let overrides = [solver, &[&walls]].concat();
+                let scene = common::fluid(dimensions, &overrides);
+                plans.push(Plan::new(&scene, &Limits::PROMISED, &wanted("contacts")).expect("a plan"));
+            }
+        }
+    }
+    plans
+}
+
+/// Plans that together use every flag and role.
+fn plans() -> Vec<Plan> {
+    let wanted = wanted("");
+    let mut plans = fluid_plans();
     for dimensions in [2, 3] {
         for addressing in ADDRESSINGS.iter().map(|row| row.name) {
             for storage in STORAGES.iter().map(|row| row.name) {

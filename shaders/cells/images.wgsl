@@ -27,9 +27,9 @@ fn image(x: Vector, number: u32, reach: f32, y: ptr<function, Vector>) -> bool {
     *y = x + shift * first(grid.period);
     let lower = first(grid.period_lower) - reach;
     let upper = first(grid.period_lower) + first(grid.period) + reach;
-    let near = *y > lower && *y < upper;
+    let near = (*y > lower) & (*y < upper);
     let stays = shift == Vector(0.0);
-    return all(stays || (near && first(grid.period) > Vector(0.0)));
+    return all(stays | (near & (first(grid.period) > Vector(0.0))));
 }
 #else
 fn nearest_image(separation: Vector) -> Vector {

@@ -18,7 +18,7 @@ use crate::scene::{self, Scene};
 /// Farthest that one step may shift a particle, as a share of the spacing.
 const LONGEST_SHIFT: f64 = 0.05;
 /// The shift of δ⁺-SPH in units of h × expected speed (Sun 2017, with its h half of the support).
-const USUAL_SHIFT: f64 = 1.0;
+const USUAL_SHIFT: f64 = 4.0;
 
 fn kernel_file(kernel: Kernel) -> &'static str {
     match kernel {

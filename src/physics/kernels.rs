@@ -173,7 +173,7 @@ mod tests {
     #[test]
     fn mullers_laplacian_is_exact_for_a_parabola() {
         for dimensions in [2, 3] {
-            let h = 0.37;
+            let h: f64 = 0.37;
             let laplacian =
                 |r: f64| muller_laplacian(dimensions) / h.powi(dimensions as i32 + 2) * (1.0 - r / h);
             let sum = integral(dimensions, h, |r| r * r * laplacian(r)) / (2.0 * dimensions as f64);

@@ -133,7 +133,15 @@ impl Plan {
                 wanted.statistics,
                 &mut variant,
             ),
-            Matter::Fluid(fluid) => fluid::plan(scene, fluid, &columns, wanted.statistics, &mut variant),
+            Matter::Fluid(fluid) => {
+                if columns.iter().any(|column| column.name == "contacts") {
+                    return Err(Error::usage(
+                        "a fluid has no contacts",
+                        "leave the column `contacts` out, or take `density` or `pressure`",
+                    ));
+                }
+                fluid::plan(scene, fluid, &columns, wanted.statistics, &mut variant)
+            }
         };
 
         let [start, step] = if neighbors::lists::wanted(scene) {

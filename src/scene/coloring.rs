@@ -31,9 +31,14 @@ pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
     let flat = known.frame.dimensions == Dimensions::Two;
     let names = column::COLUMNS.iter().map(|column| column.name);
     let names = names.filter(|name| !flat || !["z", "velocity_z"].contains(name));
+    let names = names.filter(|name| known.file.fluid.is_none() || *name != "contacts");
     let Some(column) = column::find(&color.by).filter(|column| names.clone().any(|name| name == column.name))
     else {
         let (what, mend) = match column::find(&color.by) {
+            Some(_) if color.by == "contacts" => (
+                "a fluid has no \"contacts\"".to_owned(),
+                format!("one of {}", list(names)),
+            ),
             Some(_) => (
                 format!("a 2D scene has no \"{}\"", color.by),
                 format!("one of {}", list(names)),

@@ -15,6 +15,21 @@ pub fn scene(dimensions: usize, overrides: &[&str]) -> Scene {
         2 => include_str!("scene_2d.json"),
         _ => include_str!("scene_3d.json"),
     };
+    parsed(text, overrides)
+}
+
+/// A small tank of fluid with an obstacle that moves.
+#[allow(dead_code)]
+pub fn fluid(dimensions: usize, overrides: &[&str]) -> Scene {
+    let text = match dimensions {
+        2 => include_str!("fluid_2d.json"),
+        _ => include_str!("fluid_3d.json"),
+    };
+    parsed(text, overrides)
+}
+
+#[allow(dead_code)]
+fn parsed(text: &str, overrides: &[&str]) -> Scene {
     let overrides: Vec<String> = overrides.iter().map(|&o| o.to_owned()).collect();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/common");
     match load::parse(text, "test.json", &folder, &overrides) {

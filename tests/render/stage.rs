@@ -9,7 +9,7 @@ use sliceflow::scene::model::{
     Addressing, Dashpot, Integrator, Render, SceneFile, Splat, Storage, View, Wall,
 };
 use sliceflow::scene::{
-    Coloring, Contact, Dimensions, Domain, Grains, Neighbors, Particles, Scene, Time, column,
+    Coloring, Contact, Dimensions, Domain, Grains, Matter, Neighbors, Particles, Scene, Time, column,
 };
 
 pub fn gpu() -> Gpu {
@@ -38,7 +38,7 @@ pub fn scene(dimensions: Dimensions, min: Vec3, max: Vec3, radius: f64, size: [u
             restitution: 0.5,
         },
         gravity: Vec3::new(0.0, -9.81, 0.0),
-        grains: Grains {
+        matter: Matter::Grains(Grains {
             radius,
             mass: 1.0,
             contact: Contact {
@@ -50,7 +50,8 @@ pub fn scene(dimensions: Dimensions, min: Vec3, max: Vec3, radius: f64, size: [u
                 attraction: 0.0,
                 global_damping: 0.0,
             },
-        },
+        }),
+        walls: Default::default(),
         particles: Particles::default(),
         capacity: 1,
         colliders: Vec::new(),
@@ -66,7 +67,7 @@ pub fn scene(dimensions: Dimensions, min: Vec3, max: Vec3, radius: f64, size: [u
             step: 1e-3,
             steps_per_frame: 1,
             integrator: Integrator::SymplecticEuler,
-            contact_duration: 1.0,
+            contact_duration: None,
             limited_by: "",
         },
         render: Render {

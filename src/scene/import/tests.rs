@@ -92,7 +92,7 @@ fn a_cubic_metre_gives_as_many_particles_as_there() {
             .all(|v| *v == Vec3::new(0.5, 0.0, 0.0))
     );
     assert_eq!(scene.radius(), 0.025);
-    assert_eq!(scene.file.grains.density, 900.0);
+    assert_eq!(scene.file.density(), 900.0);
     assert_eq!(scene.file.time.duration, 2.0);
     assert_eq!(scene.file.render.camera.eye, Some([0.0, 2.0, 8.0]));
     assert_eq!(scene.file.render.color.range, Some([0.0, 4.0]));

@@ -65,7 +65,7 @@ pub struct Fluid {
     /// Whether gradients are corrected to be exact for linear fields (Randles and Libersky 1996).
     #[serde(default)]
     pub gradient_correction: bool,
-    /// Strength of particle shifting, which keeps particles evenly spread (Lind 2012); 0 is none, 0.5 usual. For flows
+    /// Strength of particle shifting, which keeps particles evenly spread (Lind 2012); 0 is none, 1 that of δ⁺-SPH (Sun 2017). For flows
     /// without a free surface.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 2.0))]
