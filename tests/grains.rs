@@ -70,8 +70,9 @@ fn heap(dimensions: usize, overrides: &[&str]) -> Scene {
         } * 0.4;
     }
     let lowest = scene.particles.position.iter().fold(Vec3::MAX, |a, b| a.min(*b));
+    let radius = scene.radius() as f32;
     for p in &mut scene.particles.position {
-        let shift = (low - lowest) + Vec3::splat(0.9 * scene.radius() as f32);
+        let shift = (low - lowest) + Vec3::splat(0.9 * radius);
         *p += if dimensions == 2 { shift.with_z(0.0) } else { shift };
     }
     scene

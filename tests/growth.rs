@@ -41,7 +41,7 @@ fn scene(dimensions: usize, choices: &[&str], position: Vec<Vec3>, velocity: Vec
 /// A ball of grains that flies apart.
 fn burst(dimensions: usize, count: usize) -> (Vec<Vec3>, Vec<Vec3>) {
     let base = common::scene(dimensions, &[]);
-    let reach = 2.0 * base.grains.radius as f32;
+    let reach = 2.0 * base.radius() as f32;
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let mut unit = || {
         let z = if dimensions == 2 { 0.5 } else { rng.random() };
@@ -159,7 +159,7 @@ fn one_stray_particle_costs_memory_by_its_distance_in_its_slice_only() {
     assert_eq!(position.len(), velocity.len() + 1);
     let after = FOLLOWING.map(|addressing| voxels(addressing, &position));
     let more = |k: usize| after[k].voxels - before[k].voxels;
-    let distance = (stray.x / (2.0 * base.grains.radius as f32)) as u32;
+    let distance = (stray.x / (2.0 * base.radius() as f32)) as u32;
     assert!(
         more(0) > distance,
         "a slice gets as wide as the distance: {}",
@@ -181,7 +181,7 @@ fn one_stray_particle_costs_memory_by_its_distance_in_its_slice_only() {
 fn auto_slices_across_the_axis_with_the_fewest_voxels_and_turns_when_it_grows() {
     // A plate across x needs one slice when cut across x. It flies apart along x and z.
     let base = common::scene(3, &[]);
-    let reach = 2.0 * base.grains.radius as f32;
+    let reach = 2.0 * base.radius() as f32;
     let mut position = Vec::new();
     let mut velocity = Vec::new();
     let mut rng = ChaCha8Rng::seed_from_u64(2);

@@ -109,11 +109,7 @@ fn check_scene(label: &str, scene: &Scene) {
 /// Lower and upper corner of the test scene's domain, which has negative coordinates.
 fn corners(dimensions: usize) -> (Vec3, Vec3, f32) {
     let scene = common::scene(dimensions, &[]);
-    (
-        scene.domain.min,
-        scene.domain.max,
-        (2.0 * scene.radius()) as f32,
-    )
+    (scene.domain.min, scene.domain.max, (2.0 * scene.radius()) as f32)
 }
 
 fn random(dimensions: usize, count: usize, seed: u64) -> Vec<Vec3> {

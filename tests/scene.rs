@@ -192,7 +192,7 @@ fn restitution_and_duration_are_those_of_the_oscillator() {
 fn a_damping_is_taken_as_given() {
     let mut given = block();
     given["grains"] = json!({ "radius": 0.05, "spring": 1000, "damping": 2.5 });
-    let contact = valid(&given, &[]).grains.contact;
+    let contact = valid(&given, &[]).grains().unwrap().contact;
     assert_eq!((contact.damping, contact.wall_damping), (2.5, 2.5));
 }
 
@@ -257,7 +257,7 @@ fn the_scenes_step_is_kept_or_refused_with_one_that_fits() {
 fn strong_damping_shortens_the_step() {
     let time = valid(&block(), &["grains.shear=1000"]).time;
     assert_eq!(time.limited_by, "damping");
-    let contact = valid(&block(), &["grains.shear=1000"]).grains.contact;
+    let contact = valid(&block(), &["grains.shear=1000"]).grains().unwrap().contact;
     let share = (contact.damping + contact.shear) * time.step / (ball_mass() / 2.0);
     assert!(share <= 0.5 && share > 0.49, "{share}");
 }
@@ -406,7 +406,7 @@ fn events_keep_what_they_do_not_change() {
         .schedule
         .iter()
         .filter_map(|scheduled| match scheduled.action {
-            Action::SetParameters { gravity, contact } => Some((scheduled.time, gravity, contact)),
+            Action::SetParameters { gravity, contact } => Some((scheduled.time, gravity, contact?)),
             Action::Add(_) => None,
         })
         .collect();

@@ -142,10 +142,15 @@ impl fmt::Display for Report<'_> {
             .as_deref()
             .unwrap_or("none here; planned for what WebGPU promises everywhere");
         writeln!(f, "scene      {}, {}D", scene.name, scene.dimensions.count())?;
-        write!(f, "particles  {}", count(scene.capacity.into()))?;
+        let free = u64::from(scene.first_wall());
+        write!(f, "particles  {}", count(free))?;
         match scene.particles.len() as u64 {
-            start if start == u64::from(scene.capacity) => writeln!(f)?,
-            start => writeln!(f, " at the end, {} at the start", count(start))?,
+            start if start == free => {}
+            start => write!(f, " at the end, {} at the start", count(start))?,
+        }
+        match scene.walls.len() as u64 {
+            0 => writeln!(f)?,
+            walls => writeln!(f, ", and {} boundary particles", count(walls))?,
         }
         writeln!(f, "grid       {}", grid::name(&scene.neighbors))?;
         write!(

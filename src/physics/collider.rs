@@ -52,9 +52,13 @@ impl Obstacles {
                 offset,
                 ..Default::default()
             },
-            ColliderShape::Sphere { center, radius } => Collider {
+            ColliderShape::Sphere {
+                center,
+                radius,
+                hollow,
+            } => Collider {
                 kind: 2,
-                radius: *radius,
+                radius: if *hollow { -radius } else { *radius },
                 a: packed(*center),
                 offset,
                 ..Default::default()

@@ -30,7 +30,7 @@ pub fn bounds(scene: &Scene) -> (DVec3, DVec3) {
         let (a, b) = match &collider.shape {
             ColliderShape::Plane { .. } => continue,
             ColliderShape::Box { min, max } => (min.as_dvec3(), max.as_dvec3()),
-            ColliderShape::Sphere { center, radius } => {
+            ColliderShape::Sphere { center, radius, .. } => {
                 ((center - radius).as_dvec3(), (center + radius).as_dvec3())
             }
             ColliderShape::Mesh(mesh) => mesh

@@ -76,12 +76,14 @@ impl Surface {
                 self.fan(&rectangle(*min, *max), Vec3::Z, false);
             }
             ColliderShape::Box { min, max } => self.solid_box(*min, *max),
-            ColliderShape::Sphere { center, radius } if flat => {
+            // What is inside would be hidden.
+            ColliderShape::Sphere { hollow: true, .. } => {}
+            ColliderShape::Sphere { center, radius, .. } if flat => {
                 let corner = |k: u32| Vec3::from((glam::Vec2::from_angle(k as f32 * 0.065_449_85), 0.0));
                 let circle: Vec<Vec3> = (0..96).map(|k| center + corner(k) * *radius).collect();
                 self.fan(&circle, Vec3::Z, false);
             }
-            ColliderShape::Sphere { center, radius } => self.sphere(*center, *radius),
+            ColliderShape::Sphere { center, radius, .. } => self.sphere(*center, *radius),
             ColliderShape::Mesh(mesh) => self.mesh(mesh),
         }
     }

@@ -19,19 +19,29 @@ use super::{Collider, Dimensions, Particles, particle_file};
 /// Ids, offsets and dispatches stay far inside 32 bits.
 pub const MOST_PARTICLES: u64 = 1 << 27;
 
-/// The grains that are there from the start, in the order of the bodies.
+/// The particles that are there from the start, in the order of the bodies.
+pub struct Filled {
+    pub particles: Particles,
+    /// Which of them belong to each body.
+    pub bodies: Vec<std::ops::Range<usize>>,
+}
+
+/// Fills every body.
 pub fn fill(
     file: &SceneFile,
     frame: &Frame,
     colliders: &[Collider],
     folder: &Path,
     report: &mut Report,
-) -> Particles {
+) -> Filled {
     let radius = file.radius();
+    let mut bodies = Vec::new();
     let mut placed = Placed::new(2.0 * radius);
     let mut particles = Particles::default();
     for (i, body) in file.bodies.iter().enumerate() {
         let path = format!("bodies[{i}]");
+        let first = particles.len();
+        bodies.push(first..first);
         let Some(mut grains) = grains(i, body, file, frame, folder, report) else {
             continue;
         };
@@ -72,8 +82,9 @@ pub fn fill(
         particles
             .velocity
             .extend(velocity.map(|(v, p)| (*v + flow(p)).as_vec3()));
+        bodies[i] = first..particles.len();
     }
-    particles
+    Filled { particles, bodies }
 }
 
 /// What a fluid's particles have besides: their pressure at the start, which becomes a density when the fluid's speed
@@ -138,6 +149,23 @@ fn grains(
         let mut grains = from_file(&shape, file, placement, velocity, frame, folder, report)?;
         fit::remove_coincident(&path, &mut grains, radius, report);
         return Some(grains);
+    }
+    if let Shape::Ring { center, inner, outer } = &body.shape {
+        let center = report.vector(&format!("{shape}.center"), center, frame.dimensions);
+        let spacing = body.spacing.unwrap_or(2.0 * radius);
+        let rings = ((outer - inner) / spacing).round();
+        if frame.dimensions == Dimensions::Three || rings < 1.0 {
+            report.problem(
+                &shape,
+                "a ring is for 2D scenes and at least one spacing wide",
+                "make `outer` larger, or use another shape",
+            );
+            return None;
+        }
+        let width = (outer - inner) / rings;
+        let position = shapes::rings(frame.local(center), inner + 0.5 * width, rings as u32, width);
+        let velocity = vec![velocity; position.len()];
+        return Some(Grains { position, velocity });
     }
     let region = region(&shape, &body.shape, frame, folder, report)?;
     let spacing = body.spacing.unwrap_or(2.0 * radius);
@@ -218,7 +246,7 @@ fn region(path: &str, shape: &Shape, frame: &Frame, folder: &Path, report: &mut 
         Shape::Mesh { file, placement } => {
             obstacles::mesh(path, file, placement, frame, folder, report).map(Region::Mesh)
         }
-        Shape::Particles { .. } => None,
+        Shape::Particles { .. } | Shape::Ring { .. } => None,
     }
 }
 

@@ -1,6 +1,6 @@
 //! A fluid with its numbers completed.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::frame::{Frame, Report};
 use super::model::{
@@ -306,12 +306,53 @@ pub fn start_pressures(
         }
     }
     if body.pressure == StartPressure::Hydrostatic {
-        let height = |p: &DVec3| -p.dot(gravity);
-        let top =
-            positions.iter().map(height).fold(f64::NEG_INFINITY, f64::max) + gravity.length() * spacing / 2.0;
+        let (top, _) = extent(positions, gravity, spacing);
         for (pressure, position) in pressures.iter_mut().zip(positions) {
-            *pressure += density * (top - height(position));
+            *pressure += density * (top + position.dot(gravity));
         }
     }
     pressures
+}
+
+/// The highest and the lowest potential −g·x of a body, half a spacing beyond its particles, m²/s².
+fn extent(positions: &[DVec3], gravity: DVec3, spacing: f64) -> (f64, f64) {
+    let potential = positions.iter().map(|p| -p.dot(gravity));
+    let (low, high) = potential.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
+        (low.min(p), high.max(p))
+    });
+    let half = gravity.length() * spacing / 2.0;
+    (high + half, low - half)
+}
+
+impl Fluid {
+    /// Packs a body that begins under its own weight as densely as that makes it, so that it begins at rest: each
+    /// particle keeps the mass above it and comes nearer to the body's lowest point.
+    ///
+    /// With p = ρ₀ g d at depth d and 1/(1 + e) = (1 + a d)^(−1/γ), a = γ g / c², what lies between d and the bottom D
+    /// is ∫ (1 + a s)^(−1/γ) ds high.
+    pub fn settle(&self, positions: &mut [Vec3], gravity: DVec3) {
+        let g = gravity.length();
+        if g == 0.0 || positions.is_empty() {
+            return;
+        }
+        let exact: Vec<DVec3> = positions.iter().map(|p| p.as_dvec3()).collect();
+        let (top, bottom) = extent(&exact, gravity, self.spacing);
+        let a = f64::from(self.gamma) * g / (self.sound_speed * self.sound_speed);
+        let power = 1.0 - 1.0 / f64::from(self.gamma);
+        let integral = |depth: f64| {
+            let stretched = (a * depth).ln_1p();
+            if power == 0.0 {
+                stretched / a
+            } else {
+                (power * stretched).exp_m1() / (power * a)
+            }
+        };
+        let deepest = (top - bottom) / g;
+        for (position, exact) in positions.iter_mut().zip(&exact) {
+            let depth = (top + exact.dot(gravity)) / g;
+            let height = integral(deepest) - integral(depth);
+            let sinks = (deepest - depth) - height;
+            *position = (*exact + gravity / g * sinks).as_vec3();
+        }
+    }
 }

@@ -255,6 +255,8 @@ pub enum ColliderShape {
     Sphere {
         center: Vec3,
         radius: f32,
+        /// Solid outside instead of inside.
+        hollow: bool,
     },
     Mesh(mesh::Mesh),
 }

@@ -346,6 +346,14 @@ pub enum Shape {
         #[schemars(range(min = 1e-9, max = 1e6))]
         radius: f64,
     },
+    /// What lies between two circles, filled ring by ring; 2D only.
+    Ring {
+        center: Coordinates,
+        #[schemars(range(min = 1e-9, max = 1e6))]
+        inner: f64,
+        #[schemars(range(min = 1e-9, max = 1e6))]
+        outer: f64,
+    },
     /// 3D only.
     Cylinder {
         /// Center of the first end, metres.
@@ -446,6 +454,9 @@ pub enum ColliderShape {
         center: Coordinates,
         #[schemars(range(min = 1e-9, max = 1e6))]
         radius: f64,
+        /// Solid outside instead of inside: a round vessel.
+        #[serde(default)]
+        hollow: bool,
     },
     /// A closed triangle mesh (OBJ, PLY, STL); 3D only.
     Mesh {

@@ -116,9 +116,14 @@ fn shape(
                 max: max.as_vec3(),
             })
         }
-        model::ColliderShape::Sphere { center, radius } => Some(ColliderShape::Sphere {
+        model::ColliderShape::Sphere {
+            center,
+            radius,
+            hollow,
+        } => Some(ColliderShape::Sphere {
             center: point("center", center).as_vec3(),
             radius: *radius as f32,
+            hollow: *hollow,
         }),
         model::ColliderShape::Mesh { file, placement } => {
             mesh(path, file, placement, frame, folder, report).map(ColliderShape::Mesh)
@@ -269,7 +274,15 @@ impl<'a> Obstacle<'a> {
             ColliderShape::Sphere {
                 center: middle,
                 radius,
-            } => center.distance(middle.as_dvec3()) < f64::from(*radius) + reach,
+                hollow,
+            } => {
+                let (distance, radius) = (center.distance(middle.as_dvec3()), f64::from(*radius));
+                if *hollow {
+                    distance > radius - reach
+                } else {
+                    distance < radius + reach
+                }
+            }
             ColliderShape::Mesh(_) => self
                 .surface
                 .as_ref()

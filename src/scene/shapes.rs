@@ -75,6 +75,22 @@ pub fn lattice(
     points
 }
 
+/// Points on concentric circles around `center`, `count` of them `spacing` apart, the innermost of radius `first`; along a
+/// circle they are as far apart as goes into it.
+pub fn rings(center: DVec3, first: f64, count: u32, spacing: f64) -> Vec<DVec3> {
+    use std::f64::consts::TAU;
+    let mut points = Vec::new();
+    for ring in 0..count {
+        let radius = first + f64::from(ring) * spacing;
+        let number = (TAU * radius / spacing).round().max(1.0);
+        points.extend((0..number as u32).map(|k| {
+            let (sin, cos) = (TAU * f64::from(k) / number).sin_cos();
+            center + radius * DVec3::new(cos, sin, 0.0)
+        }));
+    }
+    points
+}
+
 /// Overlapping draws in a row after which a region counts as full.
 ///
 /// More reach farther and take longer: on 100,000 grains, 1,000 end at 0.27 of the volume (0.6 s), 10,000 at 0.31 (5 s).

@@ -33,7 +33,10 @@ pub(super) fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Prob
     // When a collider is missing for its own mistake, the others' places in the list no longer name them.
     let all_sound = colliders.len() == file.colliders.len();
     let obstacles = if all_sound { &colliders[..] } else { &[] };
-    let mut particles = bodies::fill(&file, &frame, obstacles, folder, &mut report);
+    let bodies::Filled {
+        mut particles,
+        bodies,
+    } = bodies::fill(&file, &frame, obstacles, folder, &mut report);
     let frames = time::frames(&file.time, &mut report);
     let end = f64::from(frames - 1) / file.time.fps;
     let schedule = schedule::schedule(&file, &frame, law, mass, end, &mut colliders, &mut report);
@@ -66,7 +69,7 @@ pub(super) fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Prob
                 walls: fastest_wall(&file, &colliders),
             };
             let fluid = Fluid::new(given, &frame, &speeds, &mut report);
-            start(&file, &fluid, &mut particles, &mut report);
+            start(&file, &fluid, gravity, &bodies, &mut particles, &mut report);
             if all_sound {
                 walls = walls::sample(&file, &frame, &colliders, fluid.support, &mut report);
             }
@@ -147,8 +150,21 @@ fn fastest_wall(file: &SceneFile, colliders: &[super::Collider]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// From pressures at the start, which `particles.excess` holds so far, to densities.
-fn start(file: &SceneFile, fluid: &Fluid, particles: &mut Particles, report: &mut Report) {
+/// From pressures at the start, which `particles.excess` holds so far, to densities. `bodies` says which particles
+/// belong to each body.
+fn start(
+    file: &SceneFile,
+    fluid: &Fluid,
+    gravity: DVec3,
+    bodies: &[std::ops::Range<usize>],
+    particles: &mut Particles,
+    report: &mut Report,
+) {
+    for (body, range) in file.bodies.iter().zip(bodies) {
+        if body.pressure == StartPressure::Hydrostatic {
+            fluid.settle(&mut particles.position[range.clone()], gravity);
+        }
+    }
     for (i, excess) in particles.excess.iter_mut().enumerate() {
         let material = particles.material.get(i).copied().unwrap_or(0) as usize;
         let density = fluid

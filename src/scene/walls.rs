@@ -6,6 +6,7 @@ use glam::{DVec3, Vec3};
 use super::frame::{Frame, Report};
 use super::model::{SceneFile, Wall};
 use super::obstacles::Obstacle;
+use super::shapes;
 use super::text::number;
 use super::{Collider, Dimensions};
 
@@ -165,9 +166,14 @@ fn inside(collider: &Collider, frame: &Frame, spacing: f64, depth: f64) -> Vec<D
         .map_or(DVec3::ZERO, |(_, offset)| offset.as_dvec3());
     let points = match &collider.shape {
         Box { min, max } => box_shell(min.as_dvec3(), max.as_dvec3(), frame.dimensions, spacing, depth),
-        Sphere { center, radius } => sphere_shells(
+        Sphere {
+            center,
+            radius,
+            hollow,
+        } => sphere_shells(
             center.as_dvec3(),
             f64::from(*radius),
+            *hollow,
             frame.dimensions,
             spacing,
             depth,
@@ -205,35 +211,48 @@ fn box_shell(min: DVec3, max: DVec3, dimensions: Dimensions, spacing: f64, depth
     points
 }
 
-/// Rings in 2D, Fibonacci spheres in 3D, one spacing apart.
-fn sphere_shells(center: DVec3, radius: f64, dimensions: Dimensions, spacing: f64, depth: f64) -> Vec<DVec3> {
-    use std::f64::consts::{PI, TAU};
-    let mut points = Vec::new();
-    let mut below = 0.5 * spacing;
-    while below < depth && below < radius {
-        let r = radius - below;
-        match dimensions {
-            Dimensions::Two => {
-                let count = (TAU * r / spacing).round().max(1.0);
-                points.extend((0..count as u32).map(|k| {
-                    let (sin, cos) = (TAU * f64::from(k) / count).sin_cos();
-                    center + r * DVec3::new(cos, sin, 0.0)
-                }));
-            }
-            Dimensions::Three => {
-                let count = (4.0 * PI * r * r / (spacing * spacing)).round().max(1.0);
-                let golden = PI * (5f64.sqrt() - 1.0);
-                points.extend((0..count as u32).map(|k| {
-                    let y = 1.0 - 2.0 * (f64::from(k) + 0.5) / count;
-                    let (sin, cos) = (golden * f64::from(k)).sin_cos();
-                    let ring = (1.0 - y * y).max(0.0).sqrt();
-                    center + r * DVec3::new(cos * ring, y, sin * ring)
-                }));
-            }
-        }
-        below += spacing;
+/// Rings in 2D, Fibonacci spheres in 3D, one spacing apart, below the surface of what is solid.
+fn sphere_shells(
+    center: DVec3,
+    radius: f64,
+    hollow: bool,
+    dimensions: Dimensions,
+    spacing: f64,
+    depth: f64,
+) -> Vec<DVec3> {
+    let layers = (depth / spacing).round() as u32;
+    let fitting = if hollow {
+        layers
+    } else {
+        layers.min((radius / spacing).ceil() as u32)
+    };
+    let shells = (0..fitting).map(|layer| {
+        let below = (f64::from(layer) + 0.5) * spacing;
+        if hollow { radius + below } else { radius - below }
+    });
+    let shells = shells.filter(|&r| r > 0.0);
+    match dimensions {
+        Dimensions::Two => shells
+            .flat_map(|r| shapes::rings(center, r, 1, spacing))
+            .collect(),
+        Dimensions::Three => shells
+            .flat_map(|r| fibonacci_sphere(center, r, spacing))
+            .collect(),
     }
-    points
+}
+
+fn fibonacci_sphere(center: DVec3, radius: f64, spacing: f64) -> impl Iterator<Item = DVec3> {
+    use std::f64::consts::PI;
+    let count = (4.0 * PI * radius * radius / (spacing * spacing))
+        .round()
+        .max(1.0);
+    let golden = PI * (5f64.sqrt() - 1.0);
+    (0..count as u32).map(move |k| {
+        let y = 1.0 - 2.0 * (f64::from(k) + 0.5) / count;
+        let (sin, cos) = (golden * f64::from(k)).sin_cos();
+        let ring = (1.0 - y * y).max(0.0).sqrt();
+        center + radius * DVec3::new(cos * ring, y, sin * ring)
+    })
 }
 
 /// Points of the fluid's lattice inside of a plane's or mesh's solid.

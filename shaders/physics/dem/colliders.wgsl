@@ -9,7 +9,7 @@
 struct Collider {
     kind: u32, // 0: plane, 1: box, 2: sphere, 3: mesh
     field_offset: u32, // mesh: its first value in distance_field
-    radius: f32, // sphere, m
+    radius: f32, // sphere, m; negative for one that is solid outside
     cell: f32, // mesh: distance of the field's nodes, m
     a: vec4f, // plane: a point; box and mesh: lower corner; sphere: center (m)
     b: vec4f, // plane: normal; box: upper corner (m); mesh: nodes along x, y, z
@@ -63,7 +63,8 @@ fn nearest_on_sphere(x: Vector, center: Vector, radius: f32) -> Nearest {
     if distance > 0.0 {
         outwards = local / distance;
     }
-    return Nearest(distance - radius, outwards);
+    let side = sign(radius);
+    return Nearest(side * distance - radius, side * outwards);
 }
 
 #if mesh_colliders

@@ -86,7 +86,7 @@ fn log_collider(
                 .with_colors([color])
                 .with_fill_mode(FillMode::Solid),
         ),
-        ColliderShape::Sphere { center, radius } if scene.dimensions == Dimensions::Three => stream
+        ColliderShape::Sphere { center, radius, .. } if scene.dimensions == Dimensions::Three => stream
             .log_static(
                 path,
                 &Ellipsoids3D::from_centers_and_radii([global(*center).to_array()], [*radius])
