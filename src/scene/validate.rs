@@ -10,7 +10,9 @@ use super::coloring::{self, Known};
 use super::contact::Law;
 use super::fluid::{Fluid, Speeds};
 use super::frame::{Frame, Report};
-use super::model::{Addressing, DensityFrom, Render, SceneFile, SlicingAxis, StartPressure, Storage, Wall};
+use super::model::{
+    Addressing, DensityFrom, Integrator, Render, SceneFile, SlicingAxis, StartPressure, Storage, Wall,
+};
 use super::text::number;
 use super::walls::{self, Walls};
 use super::{
@@ -84,6 +86,13 @@ pub(super) fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Prob
         &schedule.actions,
         &mut report,
     );
+    if file.fluid.is_some() && file.time.integrator != Integrator::SymplecticEuler {
+        report.problem(
+            "time.integrator",
+            "fluids are integrated with `symplectic_euler`",
+            "leave it out",
+        );
+    }
     let neighbors = neighbors(&file, &frame, &mut report);
     let render = render(&file, &frame, &mut report);
     let known = Known {

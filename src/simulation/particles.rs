@@ -57,9 +57,11 @@ impl Simulation {
             }
         }
         if self.buffers.contains("next_excess") {
-            let mut excess = free.excess.clone();
-            excess.resize(all, 0.0);
-            self.buffers.write(&self.gpu, "next_excess", first, &excess)?;
+            // What the others have by now stands in `fluid_state`.
+            let mut excess: Vec<f32> = self.fluid_state()?.iter().map(|state| state[0]).collect();
+            excess.extend(&free.excess);
+            excess.resize(first + all, 0.0);
+            self.buffers.write(&self.gpu, "next_excess", 0, &excess)?;
         }
         if self.buffers.contains("next_material") {
             let mut material = free.material.clone();
@@ -68,7 +70,6 @@ impl Simulation {
         }
         let mut encoder = self.encoder("add particles");
         let vector = dem::packed_bytes(self.scene.dimensions) * u64::from(self.count);
-        // Densities stand in `next_excess` already (physics/fluid/density.wgsl).
         for (name, next, bytes) in [
             ("position", "next_position", vector),
             ("velocity", "next_velocity", vector),
@@ -127,12 +128,23 @@ impl Simulation {
     }
 
     fn fluid_column(&self, ids: &[u32], component: usize) -> Result<Vec<f32>> {
-        if !self.buffers.contains("fluid_state") {
+        let state = self.fluid_state()?;
+        if state.is_empty() {
             return Ok(Vec::new());
         }
-        let buffer = self.buffers.get("fluid_state", "(host)")?;
-        let state: Vec<[f32; 2]> = readback::read(&self.gpu, buffer, ids.len())?;
         Ok(self.by_id(ids, state.into_iter().map(|state| state[component]).collect()))
+    }
+
+    /// ρ/ρ₀ − 1 and pressure (Pa) of a fluid's particles by slot; empty for grains.
+    pub(super) fn fluid_state(&self) -> Result<Vec<[f32; 2]>> {
+        if !self.buffers.contains("fluid_state") || self.count == 0 {
+            return Ok(Vec::new());
+        }
+        readback::read(
+            &self.gpu,
+            self.buffers.get("fluid_state", "(host)")?,
+            self.count as usize,
+        )
     }
 
     /// Values by slot in order of id, without those of boundary particles.

@@ -19,14 +19,13 @@ use crate::scene::model::Axis;
 use crate::scene::{Action, Dimensions, Scene};
 
 /// Buffers with one value a particle, and where the search takes them from.
-///
-/// A fluid's densities are found behind the search, which leaves them in `next_excess`, in the order of slots.
 const PARTICLE_BUFFERS: [(&str, &str); 6] = [
     ("position", "next_position"),
     ("velocity", "next_velocity"),
     ("acceleration", "next_acceleration"),
     ("id", "next_id"),
-    ("next_excess", "next_excess"),
+    // A fluid's densities are found behind the search; the next one carries `excess` along, see `restore`.
+    ("fluid_state", "fluid_state"),
     ("material", "next_material"),
 ];
 
@@ -127,7 +126,10 @@ pub fn state_bytes(scene: &Scene, particles: u32) -> u64 {
         Integrator::SymplecticEuler => 2,
         Integrator::VelocityVerlet => 3,
     };
-    u64::from(particles) * (vectors * dem::packed_bytes(scene.dimensions) + 4)
+    let fluid = scene
+        .fluid()
+        .map_or(0, |fluid| if fluid.materials.len() > 1 { 12 } else { 8 });
+    u64::from(particles) * (vectors * dem::packed_bytes(scene.dimensions) + 4 + fluid)
 }
 
 /// Vectors as `common/vector.wgsl` packs them.
@@ -151,7 +153,8 @@ impl Simulation {
         let vector = dem::packed_bytes(self.scene.dimensions) as usize;
         let count = self.count as usize;
         let particles = PARTICLE_BUFFERS.map(|(name, _)| match name {
-            "id" | "next_excess" | "material" => (name, 4 * count),
+            "id" | "material" => (name, 4 * count),
+            "fluid_state" => (name, 8 * count),
             _ => (name, vector * count),
         });
         let counters = [
@@ -219,6 +222,11 @@ impl Simulation {
         // The search puts every particle where it stood, since it keeps the order inside a voxel.
         for (name, next) in PARTICLE_BUFFERS {
             self.put(next, state.buffer(name))?;
+        }
+        if let (true, Some(bytes)) = (self.buffers.contains("next_excess"), state.buffer("fluid_state")) {
+            let density: Vec<[f32; 2]> = bytemuck::pod_collect_to_vec(bytes);
+            let excess: Vec<f32> = density.iter().map(|state| state[0]).collect();
+            self.buffers.write(&self.gpu, "next_excess", 0, &excess)?;
         }
         self.take_grid(state)?;
         if self.count > 0 {

@@ -4,9 +4,6 @@
 #import physics/fluid/pairs
 #import physics/fluid/material
 #import physics/fluid/state
-#if continuity
-var<storage, read_write> next_excess: array<f32>;
-#end
 #if viscous_velocities
 // The velocity that viscous forces see: the fluid's own, and one of boundary particles that makes the fluid stick.
 var<storage, read_write> viscous_velocity: array<Packed>;
@@ -61,9 +58,6 @@ fn extend_to_walls(thread: Thread) {
 #end
     let e = excess_at(select(stiffness * share, fluid.stiffness, none), p);
     fluid_state[i] = vec2f(e, p);
-#if continuity
-    next_excess[i] = e;
-#end
 #if viscous_velocities
     viscous_velocity[i] = pack(select(2.0 * v - moving * share, v, none));
 #end

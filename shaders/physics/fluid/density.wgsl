@@ -9,8 +9,7 @@
 var<storage, read_write> correction: array<Matrix>;
 #end
 #if continuity
-var<storage, read> excess: array<f32>;
-var<storage, read_write> next_excess: array<f32>;
+var<storage, read> excess: array<f32>; // of the step before
 #end
 
 // Below this determinant a particle has too few neighbors for its gradients to be corrected.
@@ -85,7 +84,6 @@ fn find_density(thread: Thread) {
 #end
 #if continuity
     let e = before + parameters.time_step * (fluid.diffusion * diffused - (1.0 + before) * divergence);
-    next_excess[i] = e;
 #else
     let e = fluid.volume * sum - 1.0;
 #end

@@ -1,15 +1,10 @@
 // Forces, then symplectic Euler (Rojas 2013, Eq. 7).
 #import common/thread
 #import physics/guard
-#import physics/next
 #import physics/fluid/forces
+#import physics/fluid/next
 #if boundary_particles
 #import physics/fluid/wall_motion
-#end
-#if shifting
-#if continuity
-var<storage, read_write> next_excess: array<f32>;
-#end
 #end
 
 @compute @workgroup_size(GROUP_SIZE)
@@ -19,9 +14,11 @@ fn move_fluid(thread: Thread) {
         return;
     }
     let x = unpack(position[i]);
+    var excess = fluid_state[i].x;
 #if boundary_particles
     if is_wall(i) {
-        leave_wall(i, x);
+        let v = wall_velocity(i);
+        leave_fluid(i, wrapped(x + parameters.time_step * v.motion), v.motion + v.surface, excess);
         return;
     }
 #end
@@ -31,11 +28,9 @@ fn move_fluid(thread: Thread) {
 #if shifting
     moved += forces.shift;
     v += forces.velocity_slope * forces.shift;
-#if continuity
-    next_excess[i] = fluid_state[i].x + dot(forces.excess_slope, forces.shift);
-#end
+    excess += dot(forces.excess_slope, forces.shift);
 #end
     moved = wrapped(moved);
     watch(id[i], clock.step, x, &moved, &v);
-    leave(i, moved, v);
+    leave_fluid(i, moved, v, excess);
 }

@@ -6,7 +6,12 @@ var<storage, read> boundary: array<vec4f>; // surface velocity, m/s; w: the body
 var<storage, read> body_velocity: array<vec4f>; // m/s
 #end
 
-fn leave_wall(i: u32, x: Vector) {
+struct WallVelocity {
+    motion: Vector, // m/s
+    surface: Vector, // besides, m/s
+}
+
+fn wall_velocity(i: u32) -> WallVelocity {
     let mine = boundary[id[i] - fluid.first_wall];
     var motion = Vector(0.0);
 #if moving_boundaries
@@ -14,5 +19,5 @@ fn leave_wall(i: u32, x: Vector) {
         motion = first(body_velocity[u32(mine.w)]);
     }
 #end
-    leave(i, wrapped(x + parameters.time_step * motion), motion + first(mine));
+    return WallVelocity(motion, first(mine));
 }
