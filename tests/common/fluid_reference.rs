@@ -1,0 +1,338 @@
+//! Fluids in f64 on the CPU, all pairs, with matrices for what the shaders do by components: what they are held against.
+
+use glam::{DMat3, DVec3};
+use sliceflow::physics::kernels;
+use sliceflow::scene::fluid::Fluid;
+use sliceflow::scene::model::{DensityFrom, Kernel, NegativePressure, PressureForce, Slip, ViscosityForm};
+use sliceflow::scene::walls::NO_BODY;
+use sliceflow::scene::{Dimensions, Scene};
+
+pub struct Reference {
+    pub position: Vec<DVec3>,
+    pub velocity: Vec<DVec3>,
+    /// ρ/ρ₀ − 1.
+    pub excess: Vec<f64>,
+    /// Pa.
+    pub pressure: Vec<f64>,
+    /// Particles before this one are fluid, the others boundary.
+    pub free: usize,
+    viscous: Vec<DVec3>,
+    correction: Vec<DMat3>,
+    stress: Vec<DMat3>,
+    material: Vec<usize>,
+    surface: Vec<DVec3>,
+    body_velocity: Vec<DVec3>,
+    fluid: Fluid,
+    dimensions: usize,
+    gravity: DVec3,
+    period: DVec3,
+    lower: DVec3,
+    step: f64,
+}
+
+impl Reference {
+    /// Starts from the scene's f32 values, so that only the arithmetic differs.
+    pub fn new(scene: &Scene) -> Self {
+        let fluid = scene.fluid().expect("a fluid").clone();
+        let walls = &scene.walls;
+        let exact = |v: &glam::Vec3| v.as_dvec3();
+        let free = scene.particles.len();
+        let motion = |&body: &u32| match body {
+            NO_BODY => DVec3::ZERO,
+            body => match &scene.colliders[body as usize].path[..] {
+                [(from, start), (to, end), ..] => (*end - *start).as_dvec3() / (to - from),
+                _ => DVec3::ZERO,
+            },
+        };
+        let mut excess: Vec<f64> = scene.particles.excess.iter().map(|&e| f64::from(e)).collect();
+        excess.resize(free + walls.len(), 0.0);
+        let mut material: Vec<usize> = scene.particles.material.iter().map(|&m| m as usize).collect();
+        material.resize(free + walls.len(), 0);
+        let mut reference = Self {
+            position: scene
+                .particles
+                .position
+                .iter()
+                .chain(&walls.position)
+                .map(exact)
+                .collect(),
+            velocity: scene
+                .particles
+                .velocity
+                .iter()
+                .chain(&walls.surface_velocity)
+                .map(exact)
+                .collect(),
+            pressure: vec![0.0; excess.len()],
+            viscous: Vec::new(),
+            correction: Vec::new(),
+            stress: Vec::new(),
+            excess,
+            free,
+            material,
+            surface: walls.surface_velocity.iter().map(exact).collect(),
+            body_velocity: walls.body.iter().map(motion).collect(),
+            dimensions: scene.dimensions.count(),
+            gravity: scene.gravity.as_dvec3(),
+            period: scene.domain.period().as_dvec3(),
+            lower: scene.domain.min.as_dvec3(),
+            step: scene.time.step,
+            fluid,
+        };
+        reference.settle(0.0);
+        reference
+    }
+
+    fn flat(&self) -> Dimensions {
+        if self.dimensions == 2 {
+            Dimensions::Two
+        } else {
+            Dimensions::Three
+        }
+    }
+
+    fn is_wall(&self, i: usize) -> bool {
+        i >= self.free
+    }
+
+    fn rest_density(&self, i: usize) -> f64 {
+        self.fluid.materials[self.material[i]].density
+    }
+
+    fn volume(&self, i: usize) -> f64 {
+        self.fluid.volume(self.flat()) / (1.0 + self.excess[i])
+    }
+
+    /// Neighbors: the particle, the way to it, the distance, and ∇ᵢW.
+    fn neighbors(&self, i: usize) -> Vec<(usize, DVec3, f64, DVec3)> {
+        let h = self.fluid.smoothing();
+        let mut found = Vec::new();
+        for j in 0..self.position.len() {
+            let mut away = self.position[j] - self.position[i];
+            for axis in 0..3 {
+                if self.period[axis] > 0.0 {
+                    away[axis] -= self.period[axis] * (away[axis] / self.period[axis]).round();
+                }
+            }
+            let r = away.length();
+            if j != i && r < self.fluid.support {
+                let slope = kernels::slope(self.fluid.kernel, self.dimensions, h, r);
+                found.push((j, away, r, -away / r * slope));
+            }
+        }
+        found
+    }
+
+    fn pressure_at(&self, i: usize, excess: f64) -> f64 {
+        let gamma = f64::from(self.fluid.gamma);
+        let stiffness = self.rest_density(i) * self.fluid.sound_speed.powi(2) / gamma;
+        let p = self.fluid.background_pressure + stiffness * ((1.0 + excess).powf(gamma) - 1.0);
+        match self.fluid.negative_pressure {
+            NegativePressure::Clamp => p.max(0.0),
+            _ => p,
+        }
+    }
+
+    /// Densities, pressures, boundary particles and stresses where particles are.
+    fn settle(&mut self, step: f64) {
+        let fluid = self.fluid.clone();
+        let h = fluid.smoothing();
+        let w = |r: f64| kernels::value(fluid.kernel, self.dimensions, h, r);
+        let closed = DVec3::from([0, 1, 2].map(|axis| if self.period[axis] > 0.0 { 0.0 } else { 1.0 }));
+        let mut excess = self.excess.clone();
+        self.correction = vec![DMat3::IDENTITY; self.position.len()];
+        for i in 0..self.free {
+            let neighbors = self.neighbors(i);
+            let e = self.excess[i];
+            let mut moment = DMat3::ZERO;
+            let mut slopes = DMat3::ZERO;
+            let mut diffused = 0.0;
+            let mut sum = w(0.0);
+            let at_rest = self.gravity * closed / fluid.sound_speed.powi(2)
+                * (1.0 + (2.0 - f64::from(fluid.gamma)) * e);
+            for &(j, away, r, gradient) in &neighbors {
+                let volume = match fluid.density_from {
+                    DensityFrom::Summation => fluid.volume(self.flat()),
+                    DensityFrom::Continuity => self.volume(j),
+                };
+                moment += outer(away, gradient) * volume;
+                slopes += outer(self.velocity[j] - self.velocity[i], gradient) * volume;
+                sum += w(r);
+                if !self.is_wall(j) && self.material[j] == self.material[i] {
+                    let difference = self.excess[j] - e - at_rest.dot(away);
+                    diffused += volume * difference * gradient.dot(away) / (r * r);
+                }
+            }
+            if self.dimensions == 2 {
+                moment.z_axis.z = 1.0;
+            }
+            if fluid.gradient_correction && moment.determinant() > 0.3 {
+                self.correction[i] = moment.inverse();
+            }
+            let correction = self.correction[i];
+            let slopes = if fluid.gradient_correction {
+                slopes * correction
+            } else {
+                slopes
+            };
+            let divergence = slopes.x_axis.x + slopes.y_axis.y + slopes.z_axis.z;
+            excess[i] = match fluid.density_from {
+                DensityFrom::Summation => fluid.volume(self.flat()) * sum - 1.0,
+                DensityFrom::Continuity => {
+                    let diffusion = 2.0 * fluid.density_diffusion * fluid.support / 2.0 * fluid.sound_speed;
+                    e + step * (diffusion * diffused - (1.0 + e) * divergence)
+                }
+            };
+        }
+        self.excess = excess;
+        for i in 0..self.free {
+            self.pressure[i] = self.pressure_at(i, self.excess[i]);
+        }
+        self.viscous = self.velocity.clone();
+        for i in self.free..self.position.len() {
+            let (mut weights, mut pressure, mut moving, mut stiffness) = (0.0, 0.0, DVec3::ZERO, 0.0);
+            for (j, away, r, _) in self.neighbors(i) {
+                if !self.is_wall(j) {
+                    let density = self.rest_density(j) * (1.0 + self.excess[j]);
+                    weights += w(r);
+                    pressure += w(r) * (self.pressure[j] - density * self.gravity.dot(away));
+                    moving += w(r) * self.velocity[j];
+                    stiffness += w(r) * self.rest_density(j);
+                }
+            }
+            let rest = self.fluid.materials[0].density;
+            let (mut p, density) = if weights > 0.0 {
+                (pressure / weights, stiffness / weights)
+            } else {
+                (fluid.background_pressure, rest)
+            };
+            if fluid.negative_pressure == NegativePressure::Clamp {
+                p = p.max(0.0);
+            }
+            self.pressure[i] = p;
+            self.excess[i] = fluid.excess_at(density, p - fluid.background_pressure);
+            if weights > 0.0 && fluid.slip == Slip::NoSlip {
+                self.viscous[i] = 2.0 * self.velocity[i] - moving / weights;
+            }
+        }
+        self.find_stress();
+    }
+
+    fn find_stress(&mut self) {
+        self.stress = vec![DMat3::ZERO; self.position.len()];
+        for i in 0..self.free {
+            let mut slopes = DMat3::ZERO;
+            for (j, _, _, gradient) in self.neighbors(i) {
+                if !(self.is_wall(j) && self.fluid.slip == Slip::FreeSlip) {
+                    slopes += outer(self.viscous[j] - self.velocity[i], gradient) * self.volume(j);
+                }
+            }
+            if self.fluid.gradient_correction {
+                slopes *= self.correction[i];
+            }
+            let trace = slopes.x_axis.x + slopes.y_axis.y + slopes.z_axis.z;
+            let viscosity = self.fluid.materials[self.material[i]].viscosity;
+            self.stress[i] =
+                (slopes + slopes.transpose() - DMat3::IDENTITY * (2.0 / 3.0 * trace)) * viscosity;
+        }
+    }
+
+    /// Moves everything by one step.
+    pub fn advance(&mut self) {
+        let (mut position, mut velocity) = (self.position.clone(), self.velocity.clone());
+        let mut excess = self.excess.clone();
+        let fluid = &self.fluid;
+        let h = fluid.smoothing();
+        let half = fluid.support / 2.0;
+        for i in 0..self.free {
+            let density = self.rest_density(i) * (1.0 + self.excess[i]);
+            let viscosity = fluid.materials[self.material[i]].viscosity;
+            let (mut push, mut drag) = (DVec3::ZERO, DVec3::ZERO);
+            let (mut crowd, mut slopes, mut excess_slope) = (DVec3::ZERO, DMat3::ZERO, DVec3::ZERO);
+            for (j, away, r, gradient) in self.neighbors(i) {
+                let volume = self.volume(j);
+                let other = self.rest_density(j) * (1.0 + self.excess[j]);
+                let (p, q) = (self.pressure[i], self.pressure[j]);
+                let pressures = match fluid.pressure_force {
+                    PressureForce::Difference => q - p,
+                    PressureForce::Monaghan => {
+                        other * density * (p / (density * density) + q / (other * other))
+                    }
+                    PressureForce::Symmetric if fluid.negative_pressure == NegativePressure::Control => {
+                        q + p.abs()
+                    }
+                    PressureForce::Symmetric => q + p,
+                };
+                push -= volume * pressures * gradient;
+                let apart = self.viscous[j] - self.velocity[i];
+                let slides = self.is_wall(j) && fluid.slip == Slip::FreeSlip;
+                if fluid.viscosity_form == ViscosityForm::Stress {
+                    let mine = self.stress[i];
+                    let other = if self.is_wall(j) { mine } else { self.stress[j] };
+                    let step = if fluid.gradient_correction {
+                        other - mine
+                    } else {
+                        other + mine
+                    };
+                    drag += volume * (step * gradient);
+                } else if fluid.kernel == Kernel::Muller && !slides {
+                    let laplacian = kernels::muller_laplacian(self.dimensions)
+                        / h.powi(self.dimensions as i32 + 2)
+                        * (1.0 - r / h);
+                    drag += viscosity * volume * laplacian * apart;
+                } else if !slides {
+                    let both = viscosity + fluid.materials[self.material[j]].viscosity;
+                    drag += both * volume * gradient.dot(away) / (r * r) * apart;
+                }
+                let approach = (self.velocity[j] - self.velocity[i]).dot(away).min(0.0);
+                let strength = fluid.artificial_viscosity * half * fluid.sound_speed;
+                drag += volume * density * strength * approach / (r * r + 0.01 * half * half) * gradient;
+                let near = kernels::value(fluid.kernel, self.dimensions, h, r)
+                    / kernels::value(fluid.kernel, self.dimensions, h, fluid.spacing);
+                crowd += volume * (1.0 + 0.2 * near.powi(4)) * gradient;
+                slopes += outer(self.velocity[j] - self.velocity[i], gradient) * volume;
+                excess_slope += volume * (self.excess[j] - self.excess[i]) * gradient;
+            }
+            if fluid.gradient_correction {
+                let exact = self.correction[i];
+                if fluid.pressure_force == PressureForce::Difference {
+                    push = exact * push;
+                }
+                if fluid.viscosity_form == ViscosityForm::Stress {
+                    drag = exact * drag;
+                }
+                slopes *= exact;
+                excess_slope = exact * excess_slope;
+            }
+            velocity[i] += self.step * (self.gravity + (push + drag) / density);
+            position[i] += self.step * velocity[i];
+            if fluid.shifting > 0.0 {
+                let wanted = -4.0 * fluid.shifting * half * fluid.max_speed * self.step * crowd;
+                let shift = wanted * (0.05 * fluid.spacing / wanted.length().max(1e-30)).min(1.0);
+                position[i] += shift;
+                velocity[i] += slopes * shift;
+                excess[i] += excess_slope.dot(shift);
+            }
+        }
+        for k in 0..self.surface.len() {
+            let i = self.free + k;
+            position[i] += self.step * self.body_velocity[k];
+            velocity[i] = self.body_velocity[k] + self.surface[k];
+        }
+        for position in &mut position {
+            for axis in 0..3 {
+                if self.period[axis] > 0.0 {
+                    let laps = (position[axis] - self.lower[axis]) / self.period[axis];
+                    position[axis] -= self.period[axis] * laps.floor();
+                }
+            }
+        }
+        (self.position, self.velocity, self.excess) = (position, velocity, excess);
+        self.settle(self.step);
+    }
+}
+
+/// a bᵀ.
+fn outer(a: DVec3, b: DVec3) -> DMat3 {
+    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
+}

@@ -1,0 +1,264 @@
+//! Fluids against f64 on the CPU, through every grid, and in hard cases.
+
+mod common;
+#[path = "common/fluid_reference.rs"]
+mod fluid_reference;
+
+use fluid_reference::Reference;
+use glam::{DVec3, Vec3};
+use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
+use sliceflow::plan::Wanted;
+use sliceflow::scene::{Particles, Scene};
+use sliceflow::simulation::Simulation;
+
+/// Simulates `frames` frame intervals.
+fn simulated(scene: &Scene, frames: u32) -> Simulation {
+    let mut simulation = common::simulate(scene, &Wanted::default());
+    for _ in 0..=frames {
+        simulation.next_frame().unwrap_or_else(|error| panic!("{error}"));
+    }
+    while simulation
+        .finish_frame()
+        .unwrap_or_else(|error| panic!("{error}"))
+        .is_some()
+    {}
+    simulation
+}
+
+fn particles(scene: &Scene, frames: u32) -> Particles {
+    simulated(scene, frames).particles().expect("particles")
+}
+
+/// Fluid thrown about a little, so that every term counts. A frame has `steps` steps.
+fn stirred(dimensions: usize, steps: u32, overrides: &[&str]) -> Scene {
+    let mut scene = common::fluid(dimensions, overrides);
+    let spacing = scene.fluid().expect("a fluid").spacing as f32;
+    for (k, (x, v)) in scene
+        .particles
+        .position
+        .iter_mut()
+        .zip(&mut scene.particles.velocity)
+        .enumerate()
+    {
+        let wave = Vec3::new(
+            (k as f32 * 1.7).sin(),
+            (k as f32 * 2.3).cos(),
+            (k as f32 * 3.1).sin(),
+        );
+        let wave = if dimensions == 2 { wave.with_z(0.0) } else { wave };
+        *x += 0.1 * spacing * wave;
+        *v += 0.3 * Vec3::new(wave.y, wave.x, wave.z);
+    }
+    scene.time.steps_per_frame = steps;
+    scene.time.fps = 1.0 / (f64::from(steps) * scene.time.step);
+    scene
+}
+
+const SOLVERS: [&[&str]; 7] = [
+    &[],
+    &["fluid.solver=sph", "fluid.viscosity=5"],
+    &[
+        "fluid.density_from=summation",
+        "fluid.pressure_force=monaghan",
+        "fluid.kernel=cubic_spline",
+    ],
+    &[
+        "fluid.negative_pressure=control",
+        "fluid.artificial_viscosity=0.2",
+        "fluid.kernel=wendland_c4",
+    ],
+    &[
+        "fluid.viscosity=5",
+        "fluid.viscosity_form=stress",
+        "fluid.slip=free_slip",
+    ],
+    &[
+        "fluid.viscosity=5",
+        "fluid.viscosity_form=stress",
+        "fluid.gradient_correction=true",
+        "fluid.pressure_force=difference",
+        "fluid.shifting=1",
+        "fluid.kernel=quintic_spline",
+        "fluid.negative_pressure=keep",
+    ],
+    &[
+        "fluid.materials=[{\"name\":\"water\",\"density\":1000,\"viscosity\":3},\
+         {\"name\":\"oil\",\"density\":500,\"viscosity\":10}]",
+        "fluid.negative_pressure=keep",
+        "fluid.background_pressure=2000",
+        "bodies=[{\"shape\":{\"kind\":\"box\",\"min\":[0,0,0],\"max\":[0.2,0.4,0.0]},\"material\":\"oil\"}]",
+    ],
+];
+
+#[test]
+fn every_solver_follows_the_reference_in_f64() {
+    for dimensions in [2, 3] {
+        for solver in SOLVERS {
+            for walls in ["domain.walls=particles", "domain.walls=periodic"] {
+                let bodies = match dimensions {
+                    2 => "bodies.0.shape.max=[0.3,0.25]",
+                    _ => "bodies.0.shape.max=[0.15,0.15,0.2]",
+                };
+                let mut overrides: Vec<&str> = solver
+                    .iter()
+                    .copied()
+                    .filter(|o| !o.starts_with("bodies=") || dimensions == 2)
+                    .collect();
+                overrides.extend([walls, bodies]);
+                let mut scene = stirred(dimensions, 10, &overrides);
+                if dimensions == 2 && scene.fluid().is_some_and(|fluid| fluid.materials.len() == 2) {
+                    for (k, material) in scene.particles.material.iter_mut().enumerate() {
+                        *material = k as u32 % 2;
+                    }
+                }
+                let mut reference = Reference::new(&scene);
+                for _ in 0..10 {
+                    reference.advance();
+                }
+                let simulation = simulated(&scene, 1);
+                let found = simulation.particles().expect("particles");
+                let pressures = simulation.pressures().expect("pressures");
+                let fluid = scene.fluid().expect("a fluid");
+                let stiffness = fluid.materials[0].density * fluid.sound_speed.powi(2);
+                let travelled = fluid.max_speed * 10.0 * scene.time.step;
+                for i in 0..found.len() {
+                    let told = format!("{dimensions}D {overrides:?}, particle {i}");
+                    let moved = (found.position[i].as_dvec3() - reference.position[i]).length();
+                    let moved = moved.min((moved - scene.domain.period().max_element() as f64).abs());
+                    assert!(moved < 1e-4 * travelled, "{told}: position off by {moved}");
+                    let sped = (found.velocity[i].as_dvec3() - reference.velocity[i]).length();
+                    assert!(sped < 2e-4 * fluid.max_speed, "{told}: velocity off by {sped}");
+                    let pressed = (f64::from(pressures[i]) - reference.pressure[i]).abs();
+                    assert!(pressed < 1e-5 * stiffness, "{told}: pressure off by {pressed}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_grid_gives_the_same_flow() {
+    for dimensions in [2, 3] {
+        let mut expected: Option<Particles> = None;
+        for addressing in ADDRESSINGS.iter().map(|row| row.name) {
+            for storage in STORAGES.iter().map(|row| row.name) {
+                for skin in ["0", "0.1"] {
+                    if storage == "pool" && skin != "0" {
+                        continue;
+                    }
+                    let grid = [
+                        format!("neighbors.addressing={addressing}"),
+                        format!("neighbors.storage={storage}"),
+                        format!("neighbors.skin={skin}"),
+                    ];
+                    let mut overrides: Vec<&str> = grid.iter().map(String::as_str).collect();
+                    overrides.extend(["neighbors.slots=64", "fluid.artificial_viscosity=0.2"]);
+                    let found = particles(&stirred(dimensions, 20, &overrides), 1);
+                    let expected = expected.get_or_insert_with(|| found.clone());
+                    for (i, (a, b)) in found.velocity.iter().zip(&expected.velocity).enumerate() {
+                        let off = a.distance(*b);
+                        assert!(
+                            off < 1e-3,
+                            "{dimensions}D {grid:?}: velocity of {i} off by {off} m/s"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_single_particle_falls_freely() {
+    let mut scene = common::fluid(
+        2,
+        &[
+            "bodies.0.shape.max=[0.05,0.05]",
+            "colliders=[]",
+            "domain.walls=open",
+        ],
+    );
+    scene.particles.position[0] = Vec3::new(0.0, 0.2, 0.0);
+    let found = particles(&scene, 1);
+    let (steps, step) = (f64::from(scene.time.steps_per_frame), scene.time.step);
+    // Symplectic Euler: v = g n Δt, y = y₀ + g Δt² n (n + 1) / 2.
+    let (v, y) = (-steps * step, 0.2 - step * step * steps * (steps + 1.0) / 2.0);
+    assert!((f64::from(found.velocity[0].y) - v).abs() < 1e-6);
+    assert!((f64::from(found.position[0].y) - y).abs() < 1e-6);
+    assert_eq!(found.excess[0], 0.0);
+}
+
+/// Pairs push and pull each other equally, and periodic sides take nothing away.
+#[test]
+fn momentum_stays() {
+    for solver in [
+        &["fluid.viscosity=5"][..],
+        &["fluid.viscosity=5", "fluid.viscosity_form=stress"],
+    ] {
+        let mut overrides = vec![
+            "domain.walls=periodic",
+            "gravity=[0,0]",
+            "colliders=[]",
+            "fluid.negative_pressure=keep",
+        ];
+        overrides.extend(solver);
+        overrides.push("bodies.0.shape.max=[1,0.5]");
+        let scene = stirred(2, 50, &overrides);
+        let total = |velocities: &[Vec3]| velocities.iter().map(|v| v.as_dvec3()).sum::<DVec3>();
+        let before = total(&scene.particles.velocity);
+        let found = particles(&scene, 1);
+        let speeds: f64 = found.velocity.iter().map(|v| f64::from(v.length())).sum();
+        let change = (total(&found.velocity) - before).length();
+        assert!(change < 1e-4 * speeds, "{solver:?}: {change} of {speeds}");
+    }
+}
+
+/// A dam breaks, sloshes and comes to rest; nothing leaks through boundary particles, the guard would tell.
+#[test]
+fn nothing_leaks() {
+    for slip in ["no_slip", "free_slip"] {
+        let slip = format!("fluid.slip={slip}");
+        let overrides = [
+            slip.as_str(),
+            "fluid.viscosity=1",
+            "fluid.artificial_viscosity=0.05",
+            "time.fps=1",
+            "time.duration=6",
+        ];
+        let scene = common::fluid(2, &overrides);
+        let found = particles(&scene, scene.time.frames - 1);
+        let half = scene.radius() as f32;
+        for x in &found.position {
+            assert!(x.cmpge(scene.domain.min - 0.2 * half).all(), "{x}");
+            assert!(x.cmple(scene.domain.max + 0.2 * half).all(), "{x}");
+        }
+        let fastest = found.velocity.iter().map(|v| v.length()).fold(0.0, f32::max);
+        assert!(fastest < 0.2, "after six seconds still {fastest} m/s");
+    }
+}
+
+/// Light fluid above one twice as dense stays there.
+#[test]
+fn layers_of_different_density_rest() {
+    let scene = common::fluid(
+        2,
+        &[
+            "colliders=[]",
+            "fluid.materials=[{\"name\":\"heavy\",\"density\":1000},{\"name\":\"light\",\"density\":500}]",
+            "bodies=[{\"shape\":{\"kind\":\"box\",\"min\":[0,0],\"max\":[1,0.2]},\"material\":\"heavy\"},\
+             {\"shape\":{\"kind\":\"box\",\"min\":[0,0.2],\"max\":[1,0.4]},\"material\":\"light\"}]",
+            "fluid.artificial_viscosity=0.2",
+            "time.duration=4",
+            "time.fps=1",
+        ],
+    );
+    let found = particles(&scene, scene.time.frames - 1);
+    let mean = |material: u32| {
+        let all = found.position.iter().zip(&scene.particles.material);
+        let heights: Vec<f32> = all.filter(|(_, m)| **m == material).map(|(x, _)| x.y).collect();
+        heights.iter().sum::<f32>() / heights.len() as f32
+    };
+    let (heavy, light) = (mean(0), mean(1));
+    assert!((light - heavy - 0.2).abs() < 0.02, "{heavy} {light}");
+    assert!(found.velocity.iter().all(|v| v.length() < 0.1));
+}
