@@ -75,12 +75,12 @@ fn forces_on(i: u32) -> Forces {
 #end
 #if stress_form
                 // A wall's stress is taken to be that of the fluid beside it.
+                let mine = stress[i] * s;
 #if gradient_correction
-                let step = select(stress[j] - stress[i], Matrix(), is_wall(j));
+                drag -= weight * select(stress[j] * s - mine, Vector(0.0), is_wall(j));
 #else
-                let step = stress[i] + select(stress[j], stress[i], is_wall(j));
+                drag -= weight * (mine + select(stress[j] * s, mine, is_wall(j)));
 #end
-                drag -= weight * (step * s);
 #end
 #if artificial_viscosity
                 let approach = min(dot(unpack(velocity[j]) - v, s), 0.0);
