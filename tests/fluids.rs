@@ -86,7 +86,6 @@ const SOLVERS: [&[&str]; 7] = [
          {\"name\":\"oil\",\"density\":500,\"viscosity\":10}]",
         "fluid.negative_pressure=keep",
         "fluid.background_pressure=2000",
-        "bodies=[{\"shape\":{\"kind\":\"box\",\"min\":[0,0,0],\"max\":[0.2,0.4,0.0]},\"material\":\"oil\"}]",
     ],
 ];
 
@@ -96,17 +95,13 @@ fn every_solver_follows_the_reference_in_f64() {
         for solver in SOLVERS {
             for walls in ["domain.walls=particles", "domain.walls=periodic"] {
                 let bodies = match dimensions {
-                    2 => "bodies.0.shape.max=[0.3,0.25]",
-                    _ => "bodies.0.shape.max=[0.15,0.15,0.2]",
+                    2 => "bodies=[{\"shape\":{\"kind\":\"box\",\"min\":[0,0],\"max\":[0.3,0.25]}}]",
+                    _ => "bodies=[{\"shape\":{\"kind\":\"box\",\"min\":[0,0,0],\"max\":[0.15,0.15,0.2]}}]",
                 };
-                let mut overrides: Vec<&str> = solver
-                    .iter()
-                    .copied()
-                    .filter(|o| !o.starts_with("bodies=") || dimensions == 2)
-                    .collect();
+                let mut overrides = solver.to_vec();
                 overrides.extend([walls, bodies]);
                 let mut scene = stirred(dimensions, 10, &overrides);
-                if dimensions == 2 && scene.fluid().is_some_and(|fluid| fluid.materials.len() == 2) {
+                if scene.fluid().is_some_and(|fluid| fluid.materials.len() == 2) {
                     for (k, material) in scene.particles.material.iter_mut().enumerate() {
                         *material = k as u32 % 2;
                     }
@@ -173,7 +168,7 @@ fn a_single_particle_falls_freely() {
     let mut scene = common::fluid(
         2,
         &[
-            "bodies.0.shape.max=[0.05,0.05]",
+            "bodies=[{\"shape\":{\"kind\":\"box\",\"min\":[0,0],\"max\":[0.05,0.05]}}]",
             "colliders=[]",
             "domain.walls=open",
         ],
@@ -202,7 +197,7 @@ fn momentum_stays() {
             "fluid.negative_pressure=keep",
         ];
         overrides.extend(solver);
-        overrides.push("bodies.0.shape.max=[1,0.5]");
+        overrides.push("bodies=[{\"shape\":{\"kind\":\"box\",\"min\":[0,0],\"max\":[1,0.5]}}]");
         let scene = stirred(2, 50, &overrides);
         let total = |velocities: &[Vec3]| velocities.iter().map(|v| v.as_dvec3()).sum::<DVec3>();
         let before = total(&scene.particles.velocity);

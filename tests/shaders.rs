@@ -62,7 +62,7 @@ fn fluid_plans() -> Vec<Plan> {
     let mut plans = Vec::new();
     for dimensions in [2, 3] {
         for solver in solvers {
-            for walls in ["particles", "periodic"] {
+            for walls in ["particles", "periodic", "planes"] {
                 let walls = format!("domain.walls={walls}");
                 let overrides = [solver, &[&walls]].concat();
                 let scene = common::fluid(dimensions, &overrides);

@@ -35,7 +35,7 @@ fn contacts(scene: &Scene, grains: &scene::Grains) -> impl Iterator<Item = scene
     std::iter::once(grains.contact).chain(later)
 }
 
-fn has_wall(scene: &Scene, kind: Wall) -> bool {
+pub fn has_wall(scene: &Scene, kind: Wall) -> bool {
     let axes = scene.dimensions.count();
     scene.domain.sides[..axes]
         .iter()
@@ -186,7 +186,7 @@ pub fn contact_values(grains: &scene::Grains, contact: &scene::Contact) -> Conta
 }
 
 /// Bounds with the sides that are not of this kind moved far away.
-fn bounds(scene: &Scene, kind: impl Fn(Wall) -> bool, inset: f32) -> ([f32; 4], [f32; 4]) {
+pub fn bounds(scene: &Scene, kind: impl Fn(Wall) -> bool, inset: f32) -> ([f32; 4], [f32; 4]) {
     let mut lower = [-FAR; 4];
     let mut upper = [FAR; 4];
     for axis in 0..scene.dimensions.count() {

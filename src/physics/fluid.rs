@@ -6,9 +6,9 @@
 use glam::Vec3;
 
 use super::Solver;
-use super::dem::packed_bytes;
+use super::dem::{bounds, has_wall, packed_bytes};
 use super::kernels;
-use super::layout::{Fluid, Material, Measure};
+use super::layout::{Fluid, Material, Measure, Planes};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::scene::column::{Column, Source};
 use crate::scene::model::{DensityFrom, Kernel, NegativePressure, PressureForce, Slip, ViscosityForm, Wall};
@@ -42,6 +42,7 @@ pub fn plan(
     let stress = viscous && fluid.viscosity_form == ViscosityForm::Stress;
     let walls = !scene.walls.is_empty();
     let moving = walls && scene.colliders.iter().any(|collider| !collider.path.is_empty());
+    let planes = has_wall(scene, Wall::Planes);
     let continuity = fluid.density_from == DensityFrom::Continuity;
     let several = fluid.materials.len() > 1;
     // Boundary particles that do not stick are left out of nothing but viscosity.
@@ -57,7 +58,10 @@ pub fn plan(
         .flag("several_materials", several)
         .flag("viscosity", viscous)
         .flag("viscous_velocities", sticks)
-        .flag("slips", viscous && walls && fluid.slip == Slip::FreeSlip)
+        .flag(
+            "slips",
+            viscous && (walls || planes) && fluid.slip == Slip::FreeSlip,
+        )
         .flag("laplacian_form", viscous && !stress)
         .flag("stress_form", stress)
         .flag("artificial_viscosity", fluid.artificial_viscosity > 0.0)
@@ -81,7 +85,11 @@ pub fn plan(
         .flag("gradient_correction", fluid.gradient_correction)
         .flag("shifting", shifting)
         .flag("matrices", fluid.gradient_correction || stress || shifting)
+        .flag("planes", planes)
         .flag("statistics", statistics);
+    if planes {
+        variant.constant("PLANE_CELLS", plane_cells(fluid));
+    }
     let measured: Vec<&Column> = columns.iter().filter(|c| c.source == Source::Measured).collect();
     for column in &measured {
         variant.flag(&format!("column_{}", column.name), true);
@@ -119,6 +127,10 @@ pub fn plan(
         Fluid::LAYOUT.size,
         "coefficients of the fluid",
     ));
+    if planes {
+        let why = "sides of the domain beyond which the fluid goes on";
+        buffers.push(BufferPlan::uniform("planes", Planes::LAYOUT.size, why));
+    }
     if several {
         let count = fluid.materials.len() as u64;
         buffers.push(BufferPlan::storage(
@@ -236,6 +248,34 @@ pub fn materials(fluid: &scene::fluid::Fluid) -> Vec<Material> {
         stiffness: stiffness(fluid, material.density),
     });
     each.collect()
+}
+
+/// Cells of the lattice along a side of the cube around a particle that the kernel fits into.
+fn plane_cells(fluid: &scene::fluid::Fluid) -> u32 {
+    2 * (fluid.support / fluid.spacing).ceil() as u32 + 1
+}
+
+/// The sides that are planes.
+pub fn planes(scene: &Scene, fluid: &scene::fluid::Fluid) -> Planes {
+    let (lower, upper) = bounds(scene, |wall| wall == Wall::Planes, 0.0);
+    let velocity = scene
+        .walls
+        .side_velocity
+        .map(|ends| ends.map(|v| [v.x, v.y, v.z, 0.0]));
+    let [[x_min, x_max], [y_min, y_max], [z_min, z_max]] = velocity;
+    Planes {
+        lower,
+        upper,
+        x_min,
+        x_max,
+        y_min,
+        y_max,
+        z_min,
+        z_max,
+        anchor: scene.domain.min.extend(0.0).into(),
+        spacing: fluid.spacing as f32,
+        ..Default::default()
+    }
 }
 
 /// Surface velocity of each boundary particle, and the number of its body.

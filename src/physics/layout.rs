@@ -179,6 +179,26 @@ shared_struct! {
 }
 
 shared_struct! {
+    pub struct Planes {
+        /// Metres; far away where a side is no plane.
+        pub lower: [f32; 4],
+        pub upper: [f32; 4],
+        /// m/s.
+        pub x_min: [f32; 4],
+        pub x_max: [f32; 4],
+        pub y_min: [f32; 4],
+        pub y_max: [f32; 4],
+        pub z_min: [f32; 4],
+        pub z_max: [f32; 4],
+        /// Metres.
+        pub anchor: [f32; 4],
+        /// Metres.
+        pub spacing: f32,
+        pub _pad: [u32; 3],
+    }
+}
+
+shared_struct! {
     pub struct Material {
         /// kg/m³.
         pub density: f32,
@@ -200,6 +220,7 @@ pub const SHARED: &[SharedLayout] = &[
     Collider::LAYOUT,
     Measure::LAYOUT,
     Fluid::LAYOUT,
+    Planes::LAYOUT,
     Material::LAYOUT,
     Sums::LAYOUT,
     Occupancy::LAYOUT,

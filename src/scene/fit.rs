@@ -62,7 +62,7 @@ pub fn check_walls(path: &str, grains: &[DVec3], radius: f64, frame: &Frame, rep
         for (end, wall, center_beyond) in sides {
             let (beyond, says) = match wall {
                 Wall::Open => (center_beyond, "grains lie outside the domain's open side"),
-                Wall::Contact | Wall::Clamp | Wall::Particles => {
+                Wall::Contact | Wall::Clamp | Wall::Particles | Wall::Planes => {
                     (center_beyond + radius, "reaches through the domain's side")
                 }
                 Wall::Periodic => (center_beyond, "particles lie outside the domain's periodic side"),

@@ -184,10 +184,10 @@ fn sides(file: &SceneFile, dimensions: Dimensions, report: &mut Report) -> [[Wal
         }
         for (end, &side) in ["min", "max"].iter().zip(&*sides) {
             let of_grains = matches!(side, Wall::Contact | Wall::Clamp);
-            let of_fluids = matches!(side, Wall::Particles | Wall::Periodic);
+            let of_fluids = matches!(side, Wall::Particles | Wall::Planes | Wall::Periodic);
             if of_grains && file.fluid.is_some() || of_fluids && file.grains.is_some() {
                 let (matter, mend) = match file.fluid {
-                    Some(_) => ("a fluid", "choose `particles`, `open` or `periodic`"),
+                    Some(_) => ("a fluid", "choose `particles`, `planes`, `open` or `periodic`"),
                     None => ("grains", "choose `contact`, `clamp` or `open`"),
                 };
                 report.problem(

@@ -182,6 +182,8 @@ pub enum Wall {
     Clamp,
     /// Layers of particles beyond the side that carry the fluid's pressure and velocity on (Adami 2012). For fluids.
     Particles,
+    /// A plane beyond which the fluid's pressure and velocity go on as far as the kernel reaches (Rojas 2013). For fluids.
+    Planes,
     /// Lets particles leave.
     Open,
     /// What leaves here comes in at the opposite side, which has to be periodic too. For fluids.

@@ -21,6 +21,8 @@ pub struct Walls {
     pub body: Vec<u32>,
     /// How far they reach beyond the domain's sides, metres.
     pub depth: f64,
+    /// `[axis][end]`: velocity of the surface of each of the domain's sides, m/s.
+    pub side_velocity: [[Vec3; 2]; 3],
 }
 
 /// Of boundary particles that belong to the domain's sides, which never move.
@@ -85,13 +87,14 @@ fn domain_sides(
             let (name, given) = velocities[axis][end];
             let path = format!("domain.side_velocities.{name}");
             let velocity = report.optional(&path, given, frame.dimensions);
-            if given.is_some() && frame.sides[axis][end] != Wall::Particles {
-                let mend = format!("leave it out, or set domain.sides.{name} to `particles`");
-                report.problem(path, "this side has no boundary particles to carry it", mend);
+            if given.is_some() && !matches!(frame.sides[axis][end], Wall::Particles | Wall::Planes) {
+                let mend = format!("leave it out, or set domain.sides.{name} to `particles` or `planes`");
+                report.problem(path, "this side has no surface that could move", mend);
             }
             velocity
         })
     });
+    walls.side_velocity = velocity.map(|ends| ends.map(|v| v.as_vec3()));
     let mut first = [0i64; 3];
     let mut last = [1i64; 3];
     let mut step = [0.0; 3];

@@ -4,6 +4,9 @@
 #import physics/fluid/pairs
 #import physics/fluid/material
 #import physics/fluid/state
+#if planes
+#import physics/fluid/planes
+#end
 #if gradient_correction
 #import physics/fluid/matrix
 var<storage, read_write> correction: array<Matrix>;
@@ -72,6 +75,31 @@ fn find_density(thread: Thread) {
             }
         }
     }
+#if planes
+    if near_planes(x) {
+        for (var number = 0u; number < BEYOND; number++) {
+            let cell = beyond(x, number);
+            if cell.counts && within(cell.way, fluid.support) {
+                let r = length(cell.way);
+#if continuity
+                let weight = volume_at(before) * kernel_slope(r);
+                let relative = cell.velocity - v;
+#if gradient_correction
+                moment -= weight * outer(cell.way, cell.way);
+                slopes -= weight * outer(relative, cell.way);
+#else
+                divergence -= weight * dot(relative, cell.way);
+#end
+#else
+                sum += kernel(r);
+#if gradient_correction
+                moment -= fluid.volume * kernel_slope(r) * outer(cell.way, cell.way);
+#end
+#end
+            }
+        }
+    }
+#end
 #if gradient_correction
     var exact = unit();
     if determinant(moment) > FEW_NEIGHBORS {

@@ -5,6 +5,9 @@
 #import physics/fluid/state
 #import physics/fluid/matrix
 #import physics/fluid/viscous
+#if planes
+#import physics/fluid/planes
+#end
 #if gradient_correction
 var<storage, read> correction: array<Matrix>;
 #end
@@ -35,6 +38,19 @@ fn find_stress(thread: Thread) {
             }
         }
     }
+#if planes
+#if !slips
+    if near_planes(x) {
+        for (var number = 0u; number < BEYOND; number++) {
+            let cell = beyond(x, number);
+            if cell.counts && within(cell.way, fluid.support) {
+                let weight = volume_at(fluid_state[i].x) * kernel_slope(length(cell.way));
+                slopes -= weight * outer(cell.stretch * (cell.velocity - v), cell.way);
+            }
+        }
+    }
+#end
+#end
 #if gradient_correction
     slopes = slopes * correction[i];
 #end
