@@ -23,7 +23,8 @@
 //! - `src/neighbors/`: neighbor search = `src/neighbors/addressing.rs` × `src/neighbors/storage.rs`.
 //!   Neighbor lists serve several steps (`src/neighbors/lists.rs`). `src/neighbors/occupancy/` counts on the host what
 //!   each grid needs for any positions.
-//! - `src/physics/`: grains (`src/physics/dem.rs`) and obstacles; parameters and an ordered list of passes.
+//! - `src/physics/`: grains (`src/physics/dem.rs`) and obstacles, fluids (`src/physics/fluid.rs`) and their smoothing
+//!   kernels (`src/physics/kernels.rs`); parameters and an ordered list of passes.
 //! - `src/render/`: pictures from the simulation's own buffers: splats, colliders, slices, the pool's heatmap, legends.
 //! - `src/plan/`: scene + limits → every buffer and pass, with the reason for each. Needs no GPU.
 //! - `src/simulation/`: executes a plan: steps, frames, what comes back. Grids that need more room get it
@@ -52,6 +53,8 @@
 //! - a scene: one JSON file in `assets/scenes/`;
 //! - a way to address voxels or to keep particles: one shader file and one row of the table in
 //!   `src/neighbors/addressing.rs` or `src/neighbors/storage.rs`;
+//! - a smoothing kernel: one shader file in `shaders/physics/fluid/kernels/`, one word in `src/scene/model/fluid.rs` and
+//!   its rows in `src/physics/kernels.rs`, which the tests hold to integrals and derivatives;
 //! - a column: one row in `src/scene/column.rs` and one file in `shaders/render/columns/`;
 //! - a format of particle files: one row in `src/output/particles/formats.rs`; a kind of video: one in
 //!   `src/output/video/mod.rs`;
