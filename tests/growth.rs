@@ -273,7 +273,7 @@ fn lists_serve_several_steps_and_miss_no_contact() {
 fn grains_that_meet_between_two_frames_are_found() {
     // Two grains far beyond each other's lists meet in the middle of a frame.
     let base = common::scene(3, &[]);
-    let diameter = 2.0 * base.grains.radius as f32;
+    let diameter = 2.0 * base.radius() as f32;
     let speed = 2.0 * diameter * base.time.fps as f32;
     let run = |skin: &str| {
         let at = |side: f32| Vec3::X * side;

@@ -139,7 +139,7 @@ impl Reference {
         let h = fluid.smoothing();
         let w = |r: f64| kernels::value(fluid.kernel, self.dimensions, h, r);
         let closed = DVec3::from([0, 1, 2].map(|axis| if self.period[axis] > 0.0 { 0.0 } else { 1.0 }));
-        let mut excess = self.excess.clone();
+        let mut excess = Vec::with_capacity(self.excess.len());
         self.correction = vec![DMat3::IDENTITY; self.position.len()];
         for i in 0..self.free {
             let neighbors = self.neighbors(i);
@@ -176,15 +176,15 @@ impl Reference {
                 slopes
             };
             let divergence = slopes.x_axis.x + slopes.y_axis.y + slopes.z_axis.z;
-            excess[i] = match fluid.density_from {
+            excess.push(match fluid.density_from {
                 DensityFrom::Summation => fluid.volume(self.flat()) * sum - 1.0,
                 DensityFrom::Continuity => {
                     let diffusion = 2.0 * fluid.density_diffusion * fluid.support / 2.0 * fluid.sound_speed;
                     e + step * (diffusion * diffused - (1.0 + e) * divergence)
                 }
-            };
+            });
         }
-        self.excess = excess;
+        self.excess[..self.free].copy_from_slice(&excess);
         for i in 0..self.free {
             self.pressure[i] = self.pressure_at(i, self.excess[i]);
         }
