@@ -29,7 +29,9 @@ struct Picture {
     count: u32, // particles
 }
 
-var<uniform> picture: Picture;
+// In a storage buffer, since Mesa's llvmpipe compiles shaders anew, and keeps them, in every frame in which they branch on
+// a uniform.
+var<storage, read> picture: Picture;
 
 // Direction from a point to the eye, and the distance (1 in an orthographic view).
 fn to_eye(point: vec3f) -> vec4f {

@@ -64,7 +64,7 @@ pub enum Status {
 /// One kind of file.
 #[derive(Debug, Serialize)]
 pub struct Files {
-    pub name: &'static str,
+    pub name: String,
     pub about: String,
 }
 

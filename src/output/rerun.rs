@@ -32,6 +32,8 @@ mod target;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use super::manifest::Files;
+
 /// Viewers and servers listen to this machine alone.
 pub const LOCALHOST: &str = "127.0.0.1";
 /// Where viewers listen for recordings.
@@ -63,6 +65,17 @@ pub enum Target {
 }
 
 impl Settings {
+    /// For the manifest.
+    pub fn files(&self) -> impl Iterator<Item = Files> {
+        self.targets.iter().filter_map(|target| match target {
+            Target::File(path) => Some(Files {
+                name: path.display().to_string(),
+                about: "recording for the Rerun viewer".into(),
+            }),
+            _ => None,
+        })
+    }
+
     /// For a run that begins with frame `frame`: nothing can be appended to a recording, so the rest goes into a file of
     /// its own, `NAME_from_FRAME.rrd`, in the folder that `folder_of` says for a path.
     pub fn part_from(&self, frame: u32, folder_of: impl Fn(&Path) -> PathBuf) -> Self {

@@ -53,7 +53,7 @@ impl Outputs {
     pub(super) fn files(&self, scene: &Scene) -> Vec<Files> {
         let [width, height] = scene.render.size;
         let mut files = vec![Files {
-            name: "run.json",
+            name: "run.json".into(),
             about: "this file".into(),
         }];
         if self.pictures {
@@ -62,14 +62,14 @@ impl Outputs {
                 scene.time.fps
             );
             files.push(Files {
-                name: "frame_NNNNNN.png",
+                name: "frame_NNNNNN.png".into(),
                 about,
             });
         }
         if self.statistics {
             let about = "one JSON object a frame; units are in its keys".into();
             files.push(Files {
-                name: "stats.jsonl",
+                name: "stats.jsonl".into(),
                 about,
             });
         }
@@ -78,11 +78,12 @@ impl Outputs {
         }
         if self.checkpoints.every != Every::Never {
             files.push(Files {
-                name: "checkpoint_NNNNNN.bin",
+                name: "checkpoint_NNNNNN.bin".into(),
                 about: "state behind a frame, for `sliceflow resume`".into(),
             });
         }
         files.extend(self.video.as_ref().map(VideoOutput::files));
+        files.extend(self.rerun.iter().flat_map(rerun::Settings::files));
         files
     }
 

@@ -93,9 +93,10 @@ pub fn needs(scene: &Scene, view: View) -> Needs {
 }
 
 fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) {
-    needs.uniform(
+    needs.storage(
         "picture",
-        size_of::<Picture>(),
+        1,
+        size_of::<Picture>() as u64,
         "camera, light, range of the colors",
     );
     needs.storage("color_map", 256, 4, "the color map, 256 entries");

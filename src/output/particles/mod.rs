@@ -114,12 +114,12 @@ impl ParticleOutput {
         let mut files = Vec::new();
         for format in &self.formats {
             files.push(Files {
-                name: format.file,
+                name: format.file.into(),
                 about: about.clone(),
             });
             if format.index.is_some() {
                 files.push(Files {
-                    name: "particles.pvd",
+                    name: "particles.pvd".into(),
                     about: "the VTK files with their times".into(),
                 });
             }

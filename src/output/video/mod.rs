@@ -173,8 +173,8 @@ impl VideoOutput {
     /// For the manifest.
     pub fn files(&self) -> Files {
         Files {
-            name: "the video",
-            about: format!("{}: {} of the frames", self.path.display(), self.kind.about),
+            name: self.path.display().to_string(),
+            about: format!("{} of the frames", self.kind.about),
         }
     }
 }
