@@ -7,50 +7,11 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use sliceflow::neighbors::{STORAGES, first_grid};
 use sliceflow::plan::Wanted;
+use sliceflow::scene::Scene;
 use sliceflow::scene::model::SlicingAxis;
-use sliceflow::scene::{Particles, Scene};
 use sliceflow::simulation::{Frame, Values};
 
 const FOLLOWING: [&str; 3] = ["sliced", "rows", "bitmap"];
-
-fn scene(dimensions: usize, choices: &[&str], position: Vec<Vec3>, velocity: Vec<Vec3>) -> Scene {
-    let open = [
-        "domain.walls=open",
-        "domain.sides={}",
-        "colliders=[]",
-        "gravity=[0,0,0]",
-    ];
-    let two = [
-        "domain.walls=open",
-        "domain.sides={}",
-        "colliders=[]",
-        "gravity=[0,0]",
-    ];
-    let open = if dimensions == 2 { two } else { open };
-    let all: Vec<&str> = open.iter().chain(choices).copied().collect();
-    let mut scene = common::scene(dimensions, &all);
-    scene.capacity = position.len() as u32;
-    scene.particles = Particles {
-        position,
-        velocity,
-        ..Particles::default()
-    };
-    scene
-}
-
-/// A ball of grains that flies apart.
-fn burst(dimensions: usize, count: usize) -> (Vec<Vec3>, Vec<Vec3>) {
-    let base = common::scene(dimensions, &[]);
-    let reach = 2.0 * base.radius() as f32;
-    let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let mut unit = || {
-        let z = if dimensions == 2 { 0.5 } else { rng.random() };
-        Vec3::new(rng.random(), rng.random(), z) - 0.5
-    };
-    let position: Vec<Vec3> = (0..count).map(|_| unit() * 8.0 * reach).collect();
-    let velocity = (0..count).map(|_| unit() * 60.0).collect();
-    (position, velocity)
-}
 
 fn frames(scene: &Scene, last: u32) -> Vec<Frame> {
     let columns = sliceflow::output::columns_named(["position"]).expect("a column");
@@ -80,7 +41,7 @@ fn positions(frame: &Frame) -> &[f64] {
 #[test]
 fn a_grid_that_grows_loses_nothing_and_changes_no_bit() {
     for dimensions in [2, 3] {
-        let (position, velocity) = burst(dimensions, 1200);
+        let (position, velocity) = common::burst(dimensions, 1200);
         for addressing in FOLLOWING {
             // How voxels keep particles is told apart in 3D.
             for storage in &STORAGES[..if dimensions == 2 { 1 } else { STORAGES.len() }] {
@@ -96,7 +57,7 @@ fn a_grid_that_grows_loses_nothing_and_changes_no_bit() {
                     let choices = choices(margin);
                     let choices: Vec<&str> = choices.iter().map(String::as_str).collect();
                     frames(
-                        &scene(dimensions, &choices, position.clone(), velocity.clone()),
+                        &common::open_scene(dimensions, &choices, position.clone(), velocity.clone()),
                         3,
                     )
                 };
@@ -116,7 +77,7 @@ fn a_grid_that_grows_loses_nothing_and_changes_no_bit() {
 
 #[test]
 fn what_is_too_far_is_counted_and_does_not_take_memory() {
-    let (mut position, mut velocity) = burst(3, 500);
+    let (mut position, mut velocity) = common::burst(3, 500);
     velocity.fill(Vec3::ZERO);
     let side = common::scene(3, &[]).domain.max.x * 2.0;
     position.push(Vec3::new(1e3 * side, 0.0, 0.0));
@@ -129,7 +90,7 @@ fn what_is_too_far_is_counted_and_does_not_take_memory() {
                 format!("neighbors.storage={}", storage.name),
             ];
             let choices: Vec<&str> = choices.iter().map(String::as_str).collect();
-            let scene = scene(3, &choices, position.clone(), velocity.clone());
+            let scene = common::open_scene(3, &choices, position.clone(), velocity.clone());
             let frames = frames(&scene, 1);
             let label = format!("{addressing} × {}", storage.name);
             assert_eq!(frames[0].quarantined, 2, "{label}");
@@ -141,12 +102,12 @@ fn what_is_too_far_is_counted_and_does_not_take_memory() {
 
 #[test]
 fn one_stray_particle_costs_memory_by_its_distance_in_its_slice_only() {
-    let (mut position, velocity) = burst(3, 500);
+    let (mut position, velocity) = common::burst(3, 500);
     let base = common::scene(3, &[]);
     let stray = Vec3::new(3.0 * base.domain.max.x, 0.0, 0.0);
     let voxels = |addressing: &str, position: &[Vec3]| {
         let choice = format!("neighbors.addressing={addressing}");
-        let scene = scene(
+        let scene = common::open_scene(
             3,
             &[&choice, "neighbors.margin=1"],
             position.to_vec(),
@@ -194,7 +155,7 @@ fn auto_slices_across_the_axis_with_the_fewest_voxels_and_turns_when_it_grows() 
     }
     for axis in ["x", "y", "z", "auto"] {
         let choice = format!("neighbors.slicing_axis={axis}");
-        let scene = scene(
+        let scene = common::open_scene(
             3,
             &[&choice, "neighbors.margin=1"],
             position.clone(),
@@ -205,7 +166,7 @@ fn auto_slices_across_the_axis_with_the_fewest_voxels_and_turns_when_it_grows() 
             assert_eq!(scene.neighbors.slicing_axis, SlicingAxis::Auto);
             let fixed = ["x", "y", "z"].map(|axis| {
                 let choice = format!("neighbors.slicing_axis={axis}");
-                first_grid(&self::scene(
+                first_grid(&common::open_scene(
                     3,
                     &[&choice, "neighbors.margin=1"],
                     position.clone(),

@@ -102,6 +102,8 @@ fn a_recording_has_everything_and_a_layout() {
 
     let found = read(&file);
     assert!(has_footer(&file));
+    let manifest = fs::read_to_string(folder.path().join("out/run.json")).unwrap();
+    assert!(manifest.contains(&format!("\"name\": \"{name}\"")), "{manifest}");
     for (entity, rows) in [
         ("/scene/particles", 1 + 6),
         ("/scene/allocated", 6),

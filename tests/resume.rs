@@ -110,3 +110,37 @@ fn a_state_carries_everything_that_the_next_step_needs() {
         }
     }
 }
+
+/// Every way to address voxels, and every way to keep particles in them.
+#[test]
+fn every_search_goes_on() {
+    for (addressing, storage) in [
+        ("bitmap", "counting"),
+        ("hash", "pool"),
+        ("morton", "counting"),
+        ("sliced", "radix"),
+        ("uniform", "bitonic"),
+    ] {
+        let overrides = [
+            &format!("neighbors.addressing={addressing}"),
+            &format!("neighbors.storage={storage}"),
+        ];
+        let scene = common::scene(3, &overrides.map(String::as_str));
+        halves(&scene, &format!("{addressing}-{storage}"));
+    }
+}
+
+/// Grains fly apart, so that the grid grows before and behind the middle.
+#[test]
+fn a_grid_that_grows_goes_on() {
+    for addressing in ["sliced", "rows", "bitmap"] {
+        let (position, velocity) = common::burst(3, 150);
+        let grid = format!("neighbors.addressing={addressing}");
+        let scene = common::open_scene(3, &[&grid], position, velocity);
+        let whole = frames(&mut common::simulate(&scene, &wanted()), 6);
+        let growths = |frames: &[Frame]| frames.iter().map(|frame| frame.growths).sum::<u32>();
+        assert!(growths(&whole[..=3]) > 0, "{addressing}");
+        assert!(growths(&whole[4..]) > 0, "{addressing}");
+        halves(&scene, &format!("{addressing}, growing"));
+    }
+}

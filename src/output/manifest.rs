@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
+use super::memory::peak_resident_bytes;
 use super::recipe::{Recipe, hex};
 use super::tally::Tally;
 use super::{clock, disk};
@@ -28,6 +29,8 @@ pub struct Manifest<'a> {
     pub finished: Option<String>,
     #[serde(flatten)]
     pub tally: Tally,
+    /// Of the program in this sitting; null where the system does not say.
+    pub peak_resident_bytes: Option<u64>,
     pub files: Vec<Files>,
     pub adapter: Identity,
     pub particles: u32,
@@ -86,6 +89,7 @@ impl<'a> Manifest<'a> {
             started: clock::now(),
             finished: None,
             tally: Tally::start(scene.time.frames),
+            peak_resident_bytes: None,
             files,
             adapter: Identity::of(&gpu.adapter),
             particles: scene.capacity,
@@ -104,7 +108,8 @@ impl<'a> Manifest<'a> {
         }
     }
 
-    pub fn write(&self) -> Result<()> {
+    fn write(&mut self) -> Result<()> {
+        self.peak_resident_bytes = peak_resident_bytes();
         let mut text = serde_json::to_vec_pretty(self).expect("keys are text");
         text.push(b'\n');
         disk::write_durably(&self.path, &text)

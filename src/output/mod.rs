@@ -11,6 +11,7 @@ mod health;
 mod interrupt;
 mod keeper;
 mod manifest;
+mod memory;
 pub mod npy;
 mod particles;
 pub mod plot;

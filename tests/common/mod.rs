@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
+use glam::Vec3;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use sliceflow::gpu::{AdapterChoice, Gpu};
 use sliceflow::plan::{Plan, Wanted};
-use sliceflow::scene::Scene;
-use sliceflow::scene::load;
+use sliceflow::scene::{Particles, Scene, load};
 use sliceflow::simulation::Simulation;
 
 /// A small scene that has a bit of everything, in two or three dimensions, with overrides.
@@ -44,4 +46,46 @@ pub fn simulate(scene: &Scene, wanted: &Wanted) -> Simulation {
     let gpu = Gpu::open(&AdapterChoice::Best, true).expect("tests need an adapter; software Vulkan will do");
     let plan = Plan::new(scene, &gpu.limits, wanted).expect("a plan");
     Simulation::new(gpu, scene, &plan).expect("a simulation")
+}
+
+/// Particles in a scene with open sides and nothing else in it.
+#[allow(dead_code)]
+pub fn open_scene(dimensions: usize, choices: &[&str], position: Vec<Vec3>, velocity: Vec<Vec3>) -> Scene {
+    let open = [
+        "domain.walls=open",
+        "domain.sides={}",
+        "colliders=[]",
+        "gravity=[0,0,0]",
+    ];
+    let two = [
+        "domain.walls=open",
+        "domain.sides={}",
+        "colliders=[]",
+        "gravity=[0,0]",
+    ];
+    let open = if dimensions == 2 { two } else { open };
+    let all: Vec<&str> = open.iter().chain(choices).copied().collect();
+    let mut scene = scene(dimensions, &all);
+    scene.capacity = position.len() as u32;
+    scene.particles = Particles {
+        position,
+        velocity,
+        ..Particles::default()
+    };
+    scene
+}
+
+/// A ball of grains that flies apart: positions and velocities.
+#[allow(dead_code)]
+pub fn burst(dimensions: usize, count: usize) -> (Vec<Vec3>, Vec<Vec3>) {
+    let base = scene(dimensions, &[]);
+    let reach = 2.0 * base.radius() as f32;
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    let mut unit = || {
+        let z = if dimensions == 2 { 0.5 } else { rng.random() };
+        Vec3::new(rng.random(), rng.random(), z) - 0.5
+    };
+    let position: Vec<Vec3> = (0..count).map(|_| unit() * 8.0 * reach).collect();
+    let velocity = (0..count).map(|_| unit() * 60.0).collect();
+    (position, velocity)
 }

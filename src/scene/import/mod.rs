@@ -50,6 +50,9 @@ pub fn import(path: &Path, into: Option<&Path>) -> Result<Imported> {
     };
     let mut notes = Vec::new();
     let mut json = convert::convert(&peer, &files, &mut ignored, &mut notes)?;
+    if json["bodies"].as_array().is_none_or(Vec::is_empty) {
+        return Err(nothing_left(path, &ignored));
+    }
     let stem = path
         .file_stem()
         .unwrap_or_default()
@@ -71,6 +74,26 @@ pub fn import(path: &Path, into: Option<&Path>) -> Result<Imported> {
         ignored,
         notes,
     })
+}
+
+/// The error for a scene without particles, which lists what was ignored.
+fn nothing_left(path: &Path, ignored: &[Ignored]) -> Error {
+    let list: String = ignored
+        .iter()
+        .map(|ignored| format!("\n  ignored: {ignored}"))
+        .collect();
+    let has_emitters = ignored.iter().any(|ignored| ignored.path.starts_with("Emitters"));
+    let (what, mend) = match has_emitters {
+        true => (
+            "all its fluid comes from Emitters, which are not imported, so no particles remain",
+            "give it FluidBlocks or FluidModels; emitters of Sliceflow are `emitters` in its own scenes",
+        ),
+        false => (
+            "it has no fluid that can be imported, so no particles remain",
+            "give it FluidBlocks or FluidModels",
+        ),
+    };
+    Error::usage(format!("{}: {what}{list}", path.display()), mend)
 }
 
 /// Where the peer's files are, and how the new scene names them.

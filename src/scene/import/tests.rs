@@ -224,6 +224,23 @@ fn mistakes_are_told_with_their_place() {
 }
 
 #[test]
+fn a_scene_of_emitters_alone_says_what_was_ignored_and_that_nothing_is_left() {
+    let mut scene = dam();
+    scene.as_object_mut().unwrap().remove("FluidBlocks");
+    scene["Emitters"] = json!([{ "width": 5, "height": 5, "translation": [0, 1, 0], "velocity": 2 }]);
+    let (_folder, path) = folder(&scene);
+    let message = import(&path, None).unwrap_err().to_string();
+    for wanted in [
+        "comes from Emitters",
+        "no particles remain",
+        "ignored: Emitters",
+        "FluidBlocks",
+    ] {
+        assert!(message.contains(wanted), "{wanted}: {message}");
+    }
+}
+
+#[test]
 fn files_are_named_from_where_the_scene_stands() {
     let relative =
         |file: &str, folder: &str| relative(Path::new(file), Path::new(folder)).display().to_string();
