@@ -1,6 +1,7 @@
 //! The command line: one file a command. Data goes to standard output, everything else to standard error.
 
 mod checkpoint_args;
+mod device_args;
 mod devices;
 mod diff;
 mod grid;
@@ -17,6 +18,7 @@ mod run_args;
 mod scene_args;
 mod scenes;
 mod schema;
+mod sitting_args;
 mod stdout;
 mod study;
 mod surface;

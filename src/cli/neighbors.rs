@@ -7,11 +7,12 @@ use std::time::Instant;
 
 use serde_json::{Value, json};
 
+use super::device_args::DeviceArgs;
 use super::table::Align::{Left, Right};
 use super::table::Table;
 use super::{grid, stdout};
 use crate::error::{Error, Result};
-use crate::gpu::{AdapterChoice, Gpu, Variant, device};
+use crate::gpu::{Gpu, Variant, device};
 use crate::neighbors;
 use crate::output::text::{bytes, count};
 use crate::plan::{Plan, Wanted};
@@ -57,9 +58,8 @@ pub struct Args {
     /// How often build and query are timed; their medians are given
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     repeat: u32,
-    /// Adapter, by index or part of its name (see `sliceflow devices`)
-    #[arg(long, value_name = "NAME|INDEX")]
-    adapter: Option<String>,
+    #[command(flatten)]
+    device: DeviceArgs,
     /// Prints JSON
     #[arg(long)]
     json: bool,
@@ -91,11 +91,7 @@ pub fn main(args: &Args) -> Result<()> {
         None => Neighbors::default(),
     };
     choice.slots = args.slots.unwrap_or(choice.slots);
-    let adapter = args
-        .adapter
-        .as_deref()
-        .map(AdapterChoice::parse)
-        .unwrap_or_default();
+    let adapter = args.device.adapter();
     let scene = scene(args, choice)?;
     for note in &scene.notes {
         eprintln!("note: {note}");

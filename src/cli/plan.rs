@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde_json::{Value, json};
 
+use super::device_args::DeviceArgs;
 use super::run_args::RunArgs;
 use super::table::Align::{Left, Right};
 use super::table::Table;
@@ -24,9 +25,8 @@ use crate::scene::Scene;
 pub struct Args {
     #[command(flatten)]
     run: RunArgs,
-    /// Adapter to plan for, by index or part of its name (see `sliceflow devices`)
-    #[arg(long, value_name = "NAME|INDEX")]
-    adapter: Option<String>,
+    #[command(flatten)]
+    device: DeviceArgs,
     /// Prints JSON
     #[arg(long)]
     json: bool,
@@ -40,11 +40,7 @@ Examples:
 
 pub fn main(args: &Args) -> Result<()> {
     let scene = args.run.load()?;
-    let adapter = args
-        .adapter
-        .as_deref()
-        .map(AdapterChoice::parse)
-        .unwrap_or_default();
+    let adapter = args.device.adapter();
     let report = Report::new(&scene, &args.run.outputs()?, &adapter)?;
     if args.json {
         stdout::print_json(&report.json())

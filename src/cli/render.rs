@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use super::scene_args::size;
-use crate::error::{Error, Result};
-use crate::gpu::AdapterChoice;
-use crate::output::{self, Checkpoints, Every, Outputs, Recorded, Settings, progress};
+use super::sitting_args::{SittingArgs, beside};
+use crate::error::Result;
+use crate::output::{self, Checkpoints, Every, Outputs, Recorded};
 
 /// Draws a run's frames again without simulating: another camera, color, size or view
 ///
@@ -32,12 +32,8 @@ pub struct Args {
     /// Replaces earlier pictures in that folder
     #[arg(long)]
     force: bool,
-    /// Adapter, by index or part of its name (see `sliceflow devices`)
-    #[arg(long, value_name = "NAME|INDEX")]
-    adapter: Option<String>,
-    /// How progress is shown
-    #[arg(long, value_name = "STYLE", default_value = "bar")]
-    progress: progress::Style,
+    #[command(flatten)]
+    sitting: SittingArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -56,35 +52,19 @@ pub fn main(args: &Args) -> Result<()> {
     );
     let folder = match &args.out {
         Some(out) => out.clone(),
-        None => {
-            let name = args.from.file_name();
-            let name = name.ok_or_else(|| Error::usage("pictures need a folder", "give one with --out"))?;
-            args.from
-                .with_file_name(format!("{}_render", name.to_string_lossy()))
-        }
+        None => beside(&args.from, "render")?,
     };
-    let settings = Settings {
-        folder,
-        force: args.force,
-        outputs: Outputs {
-            pictures: true,
-            statistics: false,
-            particles: None,
-            video: None,
-            rerun: None,
-            checkpoints: Checkpoints {
-                every: Every::Never,
-                ..Default::default()
-            },
+    let outputs = Outputs {
+        pictures: true,
+        statistics: false,
+        particles: None,
+        video: None,
+        rerun: None,
+        checkpoints: Checkpoints {
+            every: Every::Never,
+            ..Default::default()
         },
-        timings: false,
-        adapter: args
-            .adapter
-            .as_deref()
-            .map(AdapterChoice::parse)
-            .unwrap_or_default(),
-        progress: args.progress,
-        command_line: std::env::args().collect(),
     };
+    let settings = args.sitting.settings(folder, args.force, outputs, false);
     output::redraw(&recorded, &overrides, &settings)
 }

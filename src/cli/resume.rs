@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use super::checkpoint_args::CheckpointArgs;
 use super::run;
 use super::scene_args::duration;
-use crate::error::{Error, Result};
-use crate::gpu::AdapterChoice;
-use crate::output::{self, Recorded, Settings, progress};
+use super::sitting_args::{SittingArgs, beside};
+use crate::error::Result;
+use crate::output::{self, Recorded};
 
 /// Goes on with a run that was stopped, or starts a variant from one of its frames
 ///
@@ -37,12 +37,8 @@ pub struct Args {
     force: bool,
     #[command(flatten)]
     checkpoints: CheckpointArgs,
-    /// Adapter, by index or part of its name (see `sliceflow devices`)
-    #[arg(long, value_name = "NAME|INDEX")]
-    adapter: Option<String>,
-    /// How progress is shown
-    #[arg(long, value_name = "STYLE", default_value = "bar")]
-    progress: progress::Style,
+    #[command(flatten)]
+    sitting: SittingArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -63,29 +59,10 @@ pub fn main(args: &Args) -> Result<()> {
     }
     let folder = match (&args.out, args.branch_at) {
         (Some(out), _) => out.clone(),
-        (None, Some(frame)) => {
-            let name = args
-                .run
-                .file_name()
-                .ok_or_else(|| Error::usage("the variant needs a folder", "give one with --out"))?;
-            args.run
-                .with_file_name(format!("{}_at_{frame}", name.to_string_lossy()))
-        }
+        (None, Some(frame)) => beside(&args.run, &format!("at_{frame}"))?,
         (None, None) => args.run.clone(),
     };
-    let settings = Settings {
-        folder,
-        force: args.force,
-        outputs,
-        timings,
-        adapter: args
-            .adapter
-            .as_deref()
-            .map(AdapterChoice::parse)
-            .unwrap_or_default(),
-        progress: args.progress,
-        command_line: std::env::args().collect(),
-    };
+    let settings = args.sitting.settings(folder, args.force, outputs, timings);
     match args.branch_at {
         Some(frame) => output::branch(&recorded, frame, &overrides, &settings),
         None => output::resume(&recorded, &overrides, &settings),

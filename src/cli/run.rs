@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use super::run_args::RunArgs;
+use super::sitting_args::SittingArgs;
 use super::{plan, stdout};
 use crate::error::{Error, Result};
-use crate::gpu::AdapterChoice;
-use crate::output::{self, Outputs, Settings, progress};
+use crate::output::{self, Outputs};
 
 /// Simulates a scene and writes its frames
 ///
@@ -24,15 +24,11 @@ pub struct Args {
     /// Replaces an earlier run in that folder
     #[arg(long)]
     force: bool,
-    /// Adapter, by index or part of its name (see `sliceflow devices`)
-    #[arg(long, value_name = "NAME|INDEX")]
-    adapter: Option<String>,
+    #[command(flatten)]
+    sitting: SittingArgs,
     /// Times every pass on the device
     #[arg(long)]
     timings: bool,
-    /// How progress is shown
-    #[arg(long, value_name = "STYLE", default_value = "bar")]
-    progress: progress::Style,
     /// Prints the plan instead of running it
     #[arg(long)]
     dry_run: bool,
@@ -52,31 +48,16 @@ Examples:
 pub fn main(args: &Args) -> Result<()> {
     let scene = args.run.load()?;
     let outputs = args.run.outputs()?;
-    let adapter = args
-        .adapter
-        .as_deref()
-        .map(AdapterChoice::parse)
-        .unwrap_or_default();
     if args.dry_run {
-        let report = plan::Report::new(&scene, &outputs, &adapter)?;
+        let report = plan::Report::new(&scene, &outputs, &args.sitting.adapter())?;
         return stdout::print(&report.to_string());
     }
     let folder = args
         .out
         .clone()
         .unwrap_or_else(|| PathBuf::from("out").join(file_name(&scene.name)));
-    output::run(
-        &scene,
-        &Settings {
-            folder,
-            force: args.force,
-            outputs,
-            timings: args.timings,
-            adapter,
-            progress: args.progress,
-            command_line: std::env::args().collect(),
-        },
-    )
+    let settings = args.sitting.settings(folder, args.force, outputs, args.timings);
+    output::run(&scene, &settings)
 }
 
 /// What a recorded `sliceflow run` writes, and whether it times passes.

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use super::device_args::DeviceArgs;
 use super::stdout;
 use crate::error::Result;
-use crate::gpu::AdapterChoice;
 use crate::study::{self, Settings, Size};
 
 /// Measures again what a paper measured, and writes a page with the paper's figures beside ours
@@ -23,9 +23,8 @@ pub struct Args {
     /// Replaces an earlier study in that folder
     #[arg(long)]
     force: bool,
-    /// Adapter, by index or part of its name (see `sliceflow devices`)
-    #[arg(long, value_name = "NAME|INDEX")]
-    adapter: Option<String>,
+    #[command(flatten)]
+    device: DeviceArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -66,11 +65,7 @@ pub fn main(args: &Args) -> Result<()> {
             .clone()
             .unwrap_or_else(|| PathBuf::from("out/study").join(name)),
         force: args.force,
-        adapter: args
-            .adapter
-            .as_deref()
-            .map(AdapterChoice::parse)
-            .unwrap_or_default(),
+        adapter: args.device.adapter(),
     })?;
     stdout::print(&format!("{}\n", page.display()))
 }

@@ -10,10 +10,11 @@ mod tables;
 
 use std::path::PathBuf;
 
+use super::device_args::DeviceArgs;
 use super::scene_args::SceneArgs;
 use super::{grid, stdout};
 use crate::error::{Error, Result};
-use crate::gpu::{AdapterChoice, Gpu};
+use crate::gpu::Gpu;
 use crate::scene::Scene;
 use files::Files;
 use measure::Measured;
@@ -51,9 +52,8 @@ pub struct Args {
     /// Replaces those files
     #[arg(long, requires = "out")]
     force: bool,
-    /// Adapter, by index or part of its name (see `sliceflow devices`)
-    #[arg(long, value_name = "NAME|INDEX")]
-    adapter: Option<String>,
+    #[command(flatten)]
+    device: DeviceArgs,
     /// Prints JSON
     #[arg(long)]
     json: bool,
@@ -79,8 +79,7 @@ pub fn main(args: &Args) -> Result<()> {
         Some(folder) => Some(Files::open(folder, &grids, args.every.is_some(), args.force)?),
         None => None,
     };
-    let adapter = args.adapter.as_deref().map(AdapterChoice::parse);
-    let gpu = Gpu::open(&adapter.unwrap_or_default(), false)?;
+    let gpu = Gpu::open(&args.device.adapter(), false)?;
     let subject = Subject::reach(&gpu, scene, &grids, args.every)?;
     let mut measured = Vec::new();
     for scene in grids {

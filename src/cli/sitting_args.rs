@@ -1,0 +1,46 @@
+//! Arguments of the commands that make frames.
+
+use std::path::{Path, PathBuf};
+
+use super::device_args::DeviceArgs;
+use crate::error::{Error, Result};
+use crate::gpu::AdapterChoice;
+use crate::output::{Outputs, Settings, progress};
+
+#[derive(clap::Args)]
+pub struct SittingArgs {
+    #[command(flatten)]
+    device: DeviceArgs,
+    /// How progress is shown
+    #[arg(long, value_name = "STYLE", default_value = "bar")]
+    progress: progress::Style,
+}
+
+impl SittingArgs {
+    pub fn adapter(&self) -> AdapterChoice {
+        self.device.adapter()
+    }
+
+    pub fn settings(&self, folder: PathBuf, force: bool, outputs: Outputs, timings: bool) -> Settings {
+        Settings {
+            folder,
+            force,
+            outputs,
+            timings,
+            adapter: self.adapter(),
+            progress: self.progress,
+            command_line: std::env::args().collect(),
+        }
+    }
+}
+
+/// The folder RUN_SUFFIX beside a run's.
+pub fn beside(run: &Path, suffix: &str) -> Result<PathBuf> {
+    let name = run.file_name().ok_or_else(|| {
+        Error::usage(
+            format!("{} has no name to call the new folder after", run.display()),
+            "give a folder with --out",
+        )
+    })?;
+    Ok(run.with_file_name(format!("{}_{suffix}", name.to_string_lossy())))
+}
