@@ -22,17 +22,23 @@ pub fn write<T: npyz::AutoSerialize + Copy>(path: &Path, columns: usize, values:
 
     let mut name = path.as_os_str().to_owned();
     name.push(".part");
-    let mut file = BufWriter::new(fs::File::create(&name)?);
-    let mut array = npyz::WriteOptions::new()
-        .default_dtype()
-        .shape(shape)
-        .writer(&mut file)
-        .begin_nd()?;
-    array.extend(values.iter().copied())?;
-    array.finish()?;
-    file.flush()?;
-    drop(file);
-    fs::rename(&name, path)
+    let write = || {
+        let mut file = BufWriter::new(fs::File::create(&name)?);
+        let mut array = npyz::WriteOptions::new()
+            .default_dtype()
+            .shape(shape)
+            .writer(&mut file)
+            .begin_nd()?;
+        array.extend(values.iter().copied())?;
+        array.finish()?;
+        file.flush()?;
+        drop(file);
+        fs::rename(&name, path)
+    };
+    write().inspect_err(|_| {
+        // The half-written file only takes room; what went wrong is in the error.
+        let _ = fs::remove_file(&name);
+    })
 }
 
 #[cfg(test)]
