@@ -241,7 +241,7 @@ fn grains_that_meet_between_two_frames_are_found() {
         let position = vec![at(diameter), at(-diameter)];
         let velocity = vec![at(-speed), at(speed)];
         frames(
-            &scene(3, &[&format!("neighbors.skin={skin}")], position, velocity),
+            &common::open_scene(3, &[&format!("neighbors.skin={skin}")], position, velocity),
             1,
         )
     };
