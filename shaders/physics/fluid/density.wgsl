@@ -76,28 +76,25 @@ fn find_density(thread: Thread) {
         }
     }
 #if planes
-    if near_planes(x) {
-        for (var number = 0u; number < BEYOND; number++) {
-            let cell = beyond(x, number);
-            if cell.counts && within(cell.way, fluid.support) {
-                let r = length(cell.way);
+    let cells = cells_beyond(x);
+    for (var number = 0u; number < cells; number++) {
+        let cell = beyond(x, number);
+        let r = length(cell.way);
 #if continuity
-                let weight = volume_at(before) * kernel_slope(r);
-                let relative = cell.velocity - v;
+        let weight = cell.share * volume_at(before) * kernel_slope(r);
+        let relative = cell.velocity - v;
 #if gradient_correction
-                moment -= weight * outer(cell.way, cell.way);
-                slopes -= weight * outer(relative, cell.way);
+        moment -= weight * outer(cell.way, cell.way);
+        slopes -= weight * outer(relative, cell.way);
 #else
-                divergence -= weight * dot(relative, cell.way);
+        divergence -= weight * dot(relative, cell.way);
 #end
 #else
-                sum += kernel(r);
+        sum += cell.share * kernel(r);
 #if gradient_correction
-                moment -= fluid.volume * kernel_slope(r) * outer(cell.way, cell.way);
+        moment -= cell.share * fluid.volume * kernel_slope(r) * outer(cell.way, cell.way);
 #end
 #end
-            }
-        }
     }
 #end
 #if gradient_correction

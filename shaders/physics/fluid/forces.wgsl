@@ -101,53 +101,50 @@ fn forces_on(i: u32) -> Forces {
         }
     }
 #if planes
-    if near_planes(x) {
-        for (var number = 0u; number < BEYOND; number++) {
-            let cell = beyond(x, number);
-            if cell.counts && within(cell.way, fluid.support) {
-                let s = cell.way;
-                let r = length(s);
-                let weight = volume_at(state.x) * kernel_slope(r);
-                var pressure = state.y + density * dot(first(parameters.gravity) * first(fluid.closed), s);
+    let cells = cells_beyond(x);
+    for (var number = 0u; number < cells; number++) {
+        let cell = beyond(x, number);
+        let s = cell.way;
+        let r = length(s);
+        let weight = cell.share * volume_at(state.x) * kernel_slope(r);
+        var pressure = state.y + density * dot(first(parameters.gravity) * first(fluid.closed), s);
 #if clamped_pressure
-                pressure = max(pressure, 0.0);
+        pressure = max(pressure, 0.0);
 #end
 #if difference_pressure
-                push += (weight * (pressure - state.y)) * s;
+        push += (weight * (pressure - state.y)) * s;
 #else
 #if controlled_pressure
-                push += (weight * (pressure + abs(state.y))) * s;
+        push += (weight * (pressure + abs(state.y))) * s;
 #else
-                push += (weight * (pressure + state.y)) * s;
+        push += (weight * (pressure + state.y)) * s;
 #end
 #end
-                let apart = cell.velocity - v;
+        let apart = cell.velocity - v;
 #if !slips
 #if laplacian_form
 #if muller_kernels
-                drag += (own.viscosity * volume_at(state.x) * kernel_laplacian(r) * cell.stretch) * apart;
+        drag += (cell.share * own.viscosity * volume_at(state.x) * kernel_laplacian(r) * cell.stretch) * apart;
 #else
-                drag -= (2.0 * own.viscosity * weight * cell.stretch) * apart;
+        drag -= (2.0 * own.viscosity * weight * cell.stretch) * apart;
 #end
 #end
 #end
 #if stress_form
 #if !gradient_correction
-                drag -= (2.0 * weight) * (stress[i] * s);
+        drag -= (2.0 * weight) * (stress[i] * s);
 #end
 #end
 #if artificial_viscosity
-                let approach = min(dot(apart, s), 0.0);
-                let square = dot(s, s) + fluid.smallest_square;
-                drag -= (weight * density * fluid.artificial_viscosity * approach / square) * s;
+        let approach = min(dot(apart, s), 0.0);
+        let square = dot(s, s) + fluid.smallest_square;
+        drag -= (weight * density * fluid.artificial_viscosity * approach / square) * s;
 #end
 #if shifting
-                let near = kernel(r) / fluid.kernel_at_spacing;
-                crowd -= (weight * (1.0 + 0.2 * (near * near) * (near * near))) * s;
-                velocity_slope -= weight * outer(apart, s);
+        let near = kernel(r) / fluid.kernel_at_spacing;
+        crowd -= (weight * (1.0 + 0.2 * (near * near) * (near * near))) * s;
+        velocity_slope -= weight * outer(apart, s);
 #end
-            }
-        }
     }
 #end
 #if gradient_correction

@@ -23,7 +23,7 @@ var<uniform> planes: Planes;
 // A cell beyond the sides.
 struct Beyond {
     way: Vector, // from the particle, m
-    counts: bool, // whether it lies beyond a side
+    share: f32, // 1 where it lies beyond a side, 0 elsewhere
     velocity: Vector, // of that side, m/s
     stretch: f32, // a velocity that is the particle's at the particle and the side's at the side has changed by so many
                   // times their difference there
@@ -35,10 +35,11 @@ const BEYOND: u32 = PLANE_CELLS * PLANE_CELLS;
 const BEYOND: u32 = PLANE_CELLS * PLANE_CELLS * PLANE_CELLS;
 #end
 
-// Whether the kernel reaches beyond a side.
-fn near_planes(x: Vector) -> bool {
+// Cells to look at: none where the kernel does not reach beyond a side. (A branch instead, or one in the loop over them,
+// crashes the shader compiler of Mesa 22.3's software driver; kernels are zero beyond their reach anyway.)
+fn cells_beyond(x: Vector) -> u32 {
     let inside = min(x - first(planes.lower), first(planes.upper) - x);
-    return any(inside < Vector(fluid.support));
+    return select(0u, BEYOND, any(inside < Vector(fluid.support)));
 }
 
 fn beyond(x: Vector, number: u32) -> Beyond {
@@ -50,20 +51,19 @@ fn beyond(x: Vector, number: u32) -> Beyond {
     let below = first(planes.lower) - point;
     let above = point - first(planes.upper);
     let out = max(below, above);
-    // The side that it is farthest beyond.
-    var axis = 0u;
-    for (var other = 1u; other < DIMENSIONS; other++) {
-        axis = select(axis, other, out[other] > out[axis]);
-    }
-    let low = below[axis] > 0.0;
-    let inside = select(planes.upper[axis] - x[axis], x[axis] - planes.lower[axis], low);
-    var velocity = select(planes.x_max, planes.x_min, low);
-    if axis == 1u {
-        velocity = select(planes.y_max, planes.y_min, low);
-    }
-    if axis == 2u {
-        velocity = select(planes.z_max, planes.z_min, low);
-    }
-    let stretch = 1.0 + out[axis] / max(inside, 0.25 * planes.spacing);
-    return Beyond(point - x, out[axis] > 0.0, first(velocity), stretch);
+    let low = below > Vector(0.0);
+    let inside = select(first(planes.upper) - x, x - first(planes.lower), low);
+    // Of the side that it is farthest beyond.
+    var velocity = select(first(planes.x_max), first(planes.x_min), low.x);
+    var depth = vec2f(out.x, inside.x);
+    let further = out.y > depth.x;
+    velocity = select(velocity, select(first(planes.y_max), first(planes.y_min), low.y), further);
+    depth = select(depth, vec2f(out.y, inside.y), further);
+#if !two_dimensional
+    let furthest = out.z > depth.x;
+    velocity = select(velocity, select(first(planes.z_max), first(planes.z_min), low.z), furthest);
+    depth = select(depth, vec2f(out.z, inside.z), furthest);
+#end
+    let stretch = 1.0 + depth.x / max(depth.y, 0.25 * planes.spacing);
+    return Beyond(point - x, select(0.0, 1.0, depth.x > 0.0), velocity, stretch);
 }

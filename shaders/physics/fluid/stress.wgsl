@@ -40,14 +40,11 @@ fn find_stress(thread: Thread) {
     }
 #if planes
 #if !slips
-    if near_planes(x) {
-        for (var number = 0u; number < BEYOND; number++) {
-            let cell = beyond(x, number);
-            if cell.counts && within(cell.way, fluid.support) {
-                let weight = volume_at(fluid_state[i].x) * kernel_slope(length(cell.way));
-                slopes -= weight * outer(cell.stretch * (cell.velocity - v), cell.way);
-            }
-        }
+    let cells = cells_beyond(x);
+    for (var number = 0u; number < cells; number++) {
+        let cell = beyond(x, number);
+        let weight = cell.share * volume_at(fluid_state[i].x) * kernel_slope(length(cell.way));
+        slopes -= weight * outer(cell.stretch * (cell.velocity - v), cell.way);
     }
 #end
 #end
