@@ -30,8 +30,10 @@ fn fluid_plans() -> Vec<Plan> {
             "fluid.kernel=cubic_spline",
         ],
         &[
+            "time.integrator=velocity_verlet",
             "fluid.negative_pressure=control",
             "fluid.artificial_viscosity=0.1",
+            "time.integrator=velocity_verlet",
         ],
         &["fluid.viscosity=0.1", "fluid.viscosity_form=stress"],
         &[

@@ -127,13 +127,7 @@ pub fn plan(
         }
         Integrator::VelocityVerlet => {
             variant.flag("accelerations", true);
-            let bytes = packed_bytes(scene.dimensions);
-            for (name, why) in [
-                ("acceleration", "velocity Verlet needs the last accelerations"),
-                ("next_acceleration", "accelerations, before reordering"),
-            ] {
-                buffers.push(BufferPlan::storage(name, u64::from(scene.capacity), bytes, why));
-            }
+            buffers.extend(super::accelerations(scene));
             let drift = pass(
                 "drift",
                 "drift",
@@ -146,7 +140,7 @@ pub fn plan(
                     "sum_forces",
                     "contact forces at the new positions",
                 ),
-                pass("kick", "kick", "corrects the predicted velocities"),
+                super::kick(),
             ]);
         }
     }

@@ -11,7 +11,9 @@ use super::kernels;
 use super::layout::{Fluid, Material, Measure, Planes};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::scene::column::{Column, Source};
-use crate::scene::model::{DensityFrom, Kernel, NegativePressure, PressureForce, Slip, ViscosityForm, Wall};
+use crate::scene::model::{
+    DensityFrom, Integrator, Kernel, NegativePressure, PressureForce, Slip, ViscosityForm, Wall,
+};
 use crate::scene::walls::NO_BODY;
 use crate::scene::{self, Scene};
 
@@ -158,12 +160,15 @@ pub fn plan(
     let pass = |file: &str, entry, why: &str| {
         PassPlan::new(&format!("physics/fluid/{file}"), entry, Items::Particles, why)
     };
+    let euler = scene.time.integrator == Integrator::SymplecticEuler;
     solver.before_search.extend([
-        pass(
-            "symplectic_euler",
-            "move_fluid",
-            "forces and symplectic Euler (Rojas 2013, Eq. 7)",
-        ),
+        if euler {
+            let why = "forces and symplectic Euler (Rojas 2013, Eq. 7)";
+            pass("symplectic_euler", "move_fluid", why)
+        } else {
+            let why = "positions move, velocities are predicted (velocity Verlet)";
+            pass("drift", "drift_fluid", why)
+        },
         PassPlan::new(
             "physics/advance_clock",
             "advance_clock",
@@ -183,6 +188,15 @@ pub fn plan(
     if stress {
         let why = "velocity gradient and viscous stress (Rojas 2013, Eq. 4)";
         solver.after_search.push(pass("stress", "find_stress", why));
+    }
+    if !euler {
+        let why = "forces at the new positions";
+        solver
+            .after_search
+            .push(pass("velocity_verlet", "sum_fluid_forces", why));
+        solver.after_search.push(super::kick());
+        variant.flag("accelerations", true);
+        buffers.extend(super::accelerations(scene));
     }
     if statistics {
         buffers.push(BufferPlan::uniform(

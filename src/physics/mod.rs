@@ -6,7 +6,24 @@ pub mod fluid;
 pub mod kernels;
 pub mod layout;
 
-use crate::gpu::{BufferPlan, PassPlan};
+use crate::gpu::{BufferPlan, Items, PassPlan};
+use crate::scene::Scene;
+
+/// Last pass of a velocity Verlet step.
+fn kick() -> PassPlan {
+    let why = "corrects the predicted velocities";
+    PassPlan::new("physics/kick", "kick", Items::Particles, why)
+}
+
+/// Buffers that velocity Verlet needs.
+fn accelerations(scene: &Scene) -> [BufferPlan; 2] {
+    let bytes = dem::packed_bytes(scene.dimensions);
+    let column = |name, why: &str| BufferPlan::storage(name, u64::from(scene.capacity), bytes, why);
+    [
+        column("acceleration", "velocity Verlet needs the last accelerations"),
+        column("next_acceleration", "accelerations, before reordering"),
+    ]
+}
 
 /// What a solver contributes to a plan, around the neighbor search of a step.
 #[derive(Default)]

@@ -86,11 +86,12 @@ pub(super) fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Prob
         &schedule.actions,
         &mut report,
     );
-    if file.fluid.is_some() && file.time.integrator != Integrator::SymplecticEuler {
+    let shifts = file.fluid.as_ref().is_some_and(|fluid| fluid.shifting > 0.0);
+    if shifts && file.time.integrator == Integrator::VelocityVerlet {
         report.problem(
-            "time.integrator",
-            "fluids are integrated with `symplectic_euler`",
-            "leave it out",
+            "fluid.shifting",
+            "particles are shifted by `symplectic_euler` only",
+            "leave it out, or set time.integrator to `symplectic_euler`",
         );
     }
     let neighbors = neighbors(&file, &frame, &mut report);

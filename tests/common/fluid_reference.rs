@@ -3,7 +3,9 @@
 use glam::{DMat3, DVec3};
 use sliceflow::physics::kernels;
 use sliceflow::scene::fluid::Fluid;
-use sliceflow::scene::model::{DensityFrom, Kernel, NegativePressure, PressureForce, Slip, ViscosityForm};
+use sliceflow::scene::model::{
+    DensityFrom, Integrator, Kernel, NegativePressure, PressureForce, Slip, ViscosityForm,
+};
 use sliceflow::scene::walls::NO_BODY;
 use sliceflow::scene::{Dimensions, Scene};
 
@@ -28,6 +30,8 @@ pub struct Reference {
     period: DVec3,
     lower: DVec3,
     step: f64,
+    verlet: bool,
+    acceleration: Vec<DVec3>,
 }
 
 impl Reference {
@@ -77,9 +81,16 @@ impl Reference {
             period: scene.domain.period().as_dvec3(),
             lower: scene.domain.min.as_dvec3(),
             step: scene.time.step,
+            verlet: scene.time.integrator == Integrator::VelocityVerlet,
+            acceleration: Vec::new(),
             fluid,
         };
         reference.settle(0.0);
+        reference.acceleration = reference
+            .forces()
+            .into_iter()
+            .map(|forces| forces.acceleration)
+            .collect();
         reference
     }
 
@@ -237,13 +248,12 @@ impl Reference {
         }
     }
 
-    /// Moves everything by one step.
-    pub fn advance(&mut self) {
-        let (mut position, mut velocity) = (self.position.clone(), self.velocity.clone());
-        let mut excess = self.excess.clone();
+    /// Of every particle of the fluid.
+    fn forces(&self) -> Vec<Forces> {
         let fluid = &self.fluid;
         let h = fluid.smoothing();
         let half = fluid.support / 2.0;
+        let mut all = Vec::new();
         for i in 0..self.free {
             let density = self.rest_density(i) * (1.0 + self.excess[i]);
             let viscosity = fluid.materials[self.material[i]].viscosity;
@@ -304,14 +314,37 @@ impl Reference {
                 slopes *= exact;
                 excess_slope = exact * excess_slope;
             }
-            velocity[i] += self.step * (self.gravity + (push + drag) / density);
+            let wanted = -4.0 * fluid.shifting * half * fluid.max_speed * self.step * crowd;
+            let shift = wanted * (0.05 * fluid.spacing / wanted.length().max(1e-30)).min(1.0);
+            all.push(Forces {
+                acceleration: self.gravity + (push + drag) / density,
+                shift,
+                velocity_change: slopes * shift,
+                excess_change: excess_slope.dot(shift),
+            });
+        }
+        all
+    }
+
+    /// Moves everything by one step.
+    pub fn advance(&mut self) {
+        let (mut position, mut velocity) = (self.position.clone(), self.velocity.clone());
+        let mut excess = self.excess.clone();
+        for (i, forces) in self.forces().into_iter().enumerate() {
+            let a = if self.verlet {
+                self.acceleration[i]
+            } else {
+                forces.acceleration
+            };
+            velocity[i] += self.step * a;
             position[i] += self.step * velocity[i];
-            if fluid.shifting > 0.0 {
-                let wanted = -4.0 * fluid.shifting * half * fluid.max_speed * self.step * crowd;
-                let shift = wanted * (0.05 * fluid.spacing / wanted.length().max(1e-30)).min(1.0);
-                position[i] += shift;
-                velocity[i] += slopes * shift;
-                excess[i] += excess_slope.dot(shift);
+            if self.verlet {
+                position[i] -= 0.5 * self.step * self.step * a;
+            }
+            if self.fluid.shifting > 0.0 {
+                position[i] += forces.shift;
+                velocity[i] += forces.velocity_change;
+                excess[i] += forces.excess_change;
             }
         }
         for k in 0..self.surface.len() {
@@ -329,7 +362,20 @@ impl Reference {
         }
         (self.position, self.velocity, self.excess) = (position, velocity, excess);
         self.settle(self.step);
+        if self.verlet {
+            for (i, forces) in self.forces().into_iter().enumerate() {
+                self.velocity[i] += 0.5 * self.step * (forces.acceleration - self.acceleration[i]);
+                self.acceleration[i] = forces.acceleration;
+            }
+        }
     }
+}
+
+struct Forces {
+    acceleration: DVec3,
+    shift: DVec3,
+    velocity_change: DVec3,
+    excess_change: f64,
 }
 
 /// a bᵀ.

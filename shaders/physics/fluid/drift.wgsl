@@ -1,0 +1,37 @@
+// First half of a velocity Verlet step (see velocity_verlet.wgsl): positions move, velocities are predicted.
+#import common/thread
+#import physics/guard
+#import physics/fluid/pairs
+#import physics/fluid/material
+#import physics/fluid/state
+#import physics/fluid/next
+#if boundary_particles
+#import physics/fluid/wall_motion
+#end
+
+var<storage, read> acceleration: array<Packed>;
+var<storage, read_write> next_acceleration: array<Packed>;
+
+@compute @workgroup_size(GROUP_SIZE)
+fn drift_fluid(thread: Thread) {
+    let i = item_index(thread);
+    if i >= parameters.particle_count {
+        return;
+    }
+    let dt = parameters.time_step;
+    let x = unpack(position[i]);
+    let excess = fluid_state[i].x;
+    next_acceleration[i] = acceleration[i];
+#if boundary_particles
+    if is_wall(i) {
+        let v = wall_velocity(i);
+        leave_fluid(i, wrapped(x + dt * v.motion), v.motion + v.surface, excess);
+        return;
+    }
+#end
+    let a = unpack(acceleration[i]);
+    var v = unpack(velocity[i]) + dt * a;
+    var moved = wrapped(x + dt * (v - 0.5 * dt * a));
+    watch(id[i], clock.step, x, &moved, &v);
+    leave_fluid(i, moved, v, excess);
+}
