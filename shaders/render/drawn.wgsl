@@ -1,14 +1,8 @@
 // Which particles pictures show: all but boundary particles.
 #import render/state
 
-#if boundary_particles
-#import physics/fluid/coefficients
+#import physics/fluid/walls
 
 fn is_drawn(i: u32) -> bool {
-    return id[i] < fluid.first_wall;
+    return !is_wall(i);
 }
-#else
-fn is_drawn(i: u32) -> bool {
-    return true;
-}
-#end

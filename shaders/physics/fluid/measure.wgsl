@@ -4,6 +4,7 @@
 #import common/parameters
 #import physics/present
 #import physics/fluid/coefficients
+#import physics/fluid/walls
 #import physics/fluid/material
 #import physics/fluid/state
 
@@ -35,7 +36,7 @@ fn measure_fluid(thread: Thread) {
         density[i] = own.density * (1.0 + state.x);
 #end
 #if statistics
-        if id[i] < fluid.first_wall {
+        if !is_wall(i) {
             let v = unpack(velocity[i]);
             let mass = own.density * fluid.volume;
             sums.kinetic_energy = 0.5 * mass * dot(v, v);

@@ -4,6 +4,7 @@
 #import common/parameters
 #import physics/present
 #import physics/fluid/coefficients
+#import physics/fluid/walls
 #import <kernel>
 #import <candidates>
 #import cells/images
@@ -12,13 +13,3 @@
 fn toward(x: Vector, j: u32) -> Vector {
     return nearest_image(unpack(position[j]) - x);
 }
-
-#if boundary_particles
-fn is_wall(i: u32) -> bool {
-    return id[i] >= fluid.first_wall;
-}
-#else
-fn is_wall(i: u32) -> bool {
-    return false;
-}
-#end

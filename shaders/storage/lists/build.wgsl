@@ -5,6 +5,7 @@
 #import physics/present
 #import storage/lists/state
 #import cells/images
+#import physics/fluid/walls
 #import <storage>
 
 var<storage, read_write> neighbor_list: array<u32>;
@@ -18,6 +19,8 @@ fn list_candidates(thread: Thread) {
         return;
     }
     let x = unpack(position[i]);
+    // Boundary particles ask for the fluid only.
+    let wall = is_wall(i);
     let first_slot = i * grid.list_capacity;
     var count = 0u;
     for (var number = 0u; number < IMAGES; number++) {
@@ -30,7 +33,8 @@ fn list_candidates(thread: Thread) {
             let range = candidate_range(home, k);
             for (var slot = range.x; slot < range.y; slot++) {
                 let j = candidate(slot);
-                if j != i && within(unpack(position[j]) - y, grid.list_reach) {
+                let wanted = j != i && !(wall && is_wall(j));
+                if wanted && within(unpack(position[j]) - y, grid.list_reach) {
                     if count < grid.list_capacity {
                         neighbor_list[first_slot + count] = j;
                     }
