@@ -295,3 +295,39 @@ fn a_channel_has_its_parabola() {
         }
     }
 }
+
+/// A run that goes on from a state is the same run, to the bit.
+#[test]
+fn a_run_goes_on_from_its_state() {
+    for (dimensions, choice) in [
+        (2, "fluid.viscosity=5"),
+        (2, "time.integrator=velocity_verlet"),
+        (3, "fluid.density_from=summation"),
+        (
+            2,
+            "fluid.materials=[{\"name\":\"a\",\"density\":1000},{\"name\":\"b\",\"density\":500}]",
+        ),
+    ] {
+        let scene = stirred(
+            dimensions,
+            12,
+            &[
+                choice,
+                "domain.sides={\"x_min\":\"periodic\",\"x_max\":\"periodic\"}",
+            ],
+        );
+        let whole = particles(&scene, 3);
+        let state = simulated(&scene, 1).save_state().expect("a state");
+        let mut later = common::simulate(&scene, &Wanted::default());
+        later.restore(&state).expect("restored");
+        for _ in 0..2 {
+            later.next_frame().unwrap_or_else(|error| panic!("{error}"));
+        }
+        while later.finish_frame().expect("a frame").is_some() {}
+        assert_eq!(
+            later.particles().expect("particles"),
+            whole,
+            "{dimensions}D {choice}"
+        );
+    }
+}
