@@ -331,3 +331,34 @@ fn a_run_goes_on_from_its_state() {
         );
     }
 }
+
+/// A jet fills a tank: what is let in keeps its speed on the way and its volume at rest.
+#[test]
+fn a_jet_fills_a_tank() {
+    let scene = common::fluid(
+        2,
+        &[
+            "colliders=[]",
+            "bodies=[]",
+            "fluid.artificial_viscosity=0.1",
+            "emitters=[{\"name\":\"tap\",\"center\":[0.5,0.4],\"radius\":0.1,\"velocity\":[0,-0.5]}]",
+            "time.duration=2",
+            "time.fps=2",
+        ],
+    );
+    let emitted = scene.first_wall() as f64;
+    assert!(emitted > 60.0, "{emitted} particles");
+    let found = particles(&scene, scene.time.frames - 1);
+    assert_eq!(found.len() as f64, emitted);
+    let spread = found.excess.iter().map(|e| e.abs()).fold(0.0, f32::max);
+    assert!(spread < 0.03, "density varies by {spread}");
+    // Half of it lies below the height that all of it fills.
+    let height = emitted * scene.fluid().expect("a fluid").volume(scene.dimensions);
+    let mut heights: Vec<f32> = found.position.iter().map(|x| x.y - scene.domain.min.y).collect();
+    heights.sort_by(f32::total_cmp);
+    let middle = f64::from(heights[heights.len() / 2]);
+    assert!(
+        middle < height,
+        "half lies above {middle} m, all fills {height} m"
+    );
+}

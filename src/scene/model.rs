@@ -491,7 +491,7 @@ pub struct Emitter {
     pub radius: f64,
     /// Metres per second; grains start with it, and the disc stands across it.
     pub velocity: Coordinates,
-    /// Distance of grains, metres; a grain's diameter, and a tenth more, when left out.
+    /// Distance of particles, metres; a grain's diameter, and a tenth more, or a fluid's spacing when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-9, max = 1e6))]
     pub spacing: Option<f64>,

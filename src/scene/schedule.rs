@@ -15,7 +15,8 @@ use super::shapes::{self, Region};
 use super::text::{number, suggest};
 use super::{Action, Collider, Contact, Particles, Scheduled};
 
-/// An emitter's layers stand this many radii apart when the scene does not say: a tenth more than touching.
+/// An emitter's layers of grains stand this many radii apart when the scene does not say: a tenth more than touching. A
+/// fluid's stand one spacing apart.
 const DEFAULT_SPACING_RADII: f64 = 2.2;
 
 pub struct Schedule {
@@ -238,7 +239,11 @@ impl Unroll<'_> {
             return;
         };
         let grain = self.file.radius();
-        let spacing = emitter.spacing.unwrap_or(DEFAULT_SPACING_RADII * grain);
+        let usual = match self.file.fluid {
+            Some(_) => 2.0,
+            None => DEFAULT_SPACING_RADII,
+        };
+        let spacing = emitter.spacing.unwrap_or(usual * grain);
         if spacing < 2.0 * grain * (1.0 - 1e-9) {
             report.problem(
                 format!("{path}.spacing"),
