@@ -245,6 +245,7 @@ pub fn coefficients(scene: &Scene, fluid: &scene::fluid::Fluid) -> Fluid {
         shift_limit: (LONGEST_SHIFT * fluid.spacing) as f32,
         kernel_at_spacing: kernels::value(fluid.kernel, dimensions, h, fluid.spacing) as f32,
         smallest_square: (0.01 * half * half) as f32,
+        lowest_excess: -(fluid.max_speed / sound).powi(2) as f32,
         first_wall: scene.first_wall(),
         closed: [closed(0), closed(1), closed(2), 0.0],
         ..Default::default()

@@ -171,8 +171,9 @@ shared_struct! {
         pub kernel_at_spacing: f32,
         /// m².
         pub smallest_square: f32,
+        pub lowest_excess: f32,
         pub first_wall: u32,
-        pub _pad: [u32; 2],
+        pub _pad: u32,
         /// 1 along directions in which space does not repeat, else 0.
         pub closed: [f32; 4],
     }

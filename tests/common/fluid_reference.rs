@@ -191,7 +191,11 @@ impl Reference {
                 DensityFrom::Summation => fluid.volume(self.flat()) * sum - 1.0,
                 DensityFrom::Continuity => {
                     let diffusion = 2.0 * fluid.density_diffusion * fluid.support / 2.0 * fluid.sound_speed;
-                    e + step * (diffusion * diffused - (1.0 + e) * divergence)
+                    let moved = e + step * (diffusion * diffused - (1.0 + e) * divergence);
+                    match fluid.negative_pressure {
+                        NegativePressure::Clamp => moved.max(-(fluid.max_speed / fluid.sound_speed).powi(2)),
+                        _ => moved,
+                    }
                 }
             });
         }

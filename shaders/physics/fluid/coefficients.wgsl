@@ -18,6 +18,7 @@ struct Fluid {
     shift_limit: f32, // of one step, m
     kernel_at_spacing: f32, // W at the distance of particles at rest
     smallest_square: f32, // keeps quotients by squared distances finite, m²
+    lowest_excess: f32, // of ρ/ρ₀ − 1 where negative pressures are clamped
     first_wall: u32, // ids from here on are boundary particles
     closed: vec4f, // 1 along directions in which space does not repeat, else 0
 }

@@ -108,7 +108,11 @@ fn find_density(thread: Thread) {
 #end
 #end
 #if continuity
-    let e = before + parameters.time_step * (fluid.diffusion * diffused - (1.0 + before) * divergence);
+    var e = before + parameters.time_step * (fluid.diffusion * diffused - (1.0 + before) * divergence);
+#if clamped_pressure
+    // Torn fluid keeps close to rest density: it would have to be pressed together again before a wall could hold it.
+    e = max(e, fluid.lowest_excess);
+#end
 #else
     let e = fluid.volume * sum - 1.0;
 #end

@@ -162,7 +162,8 @@ pub enum PressureForce {
 pub enum NegativePressure {
     /// They stay, and pull.
     Keep,
-    /// They count as zero: fluid tears instead of pulling.
+    /// They count as zero: fluid tears instead of pulling, and torn fluid keeps at most as far below rest density as the
+    /// expected speed makes it vary.
     #[default]
     Clamp,
     /// They act through the difference of pressures, which cannot clump particles (Sun 2018).
