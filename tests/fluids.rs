@@ -342,8 +342,9 @@ fn a_jet_fills_a_tank() {
             "bodies=[]",
             "fluid.artificial_viscosity=0.1",
             "emitters=[{\"name\":\"tap\",\"center\":[0.5,0.4],\"radius\":0.1,\"velocity\":[0,-0.5]}]",
-            "time.duration=2",
-            "time.fps=2",
+            "events=[{\"at\":2,\"emitter\":{\"name\":\"tap\",\"on\":false}}]",
+            "time.duration=6",
+            "time.fps=1",
         ],
     );
     let emitted = scene.first_wall() as f64;
