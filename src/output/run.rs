@@ -41,10 +41,12 @@ impl Outputs {
                 .particles
                 .as_ref()
                 .map_or_else(Vec::new, |p| p.columns.clone()),
+            columns_every: self.particles.as_ref().map_or(0, |p| p.every),
             view: (self.pictures || self.video.is_some()).then_some(scene.render.view),
             ..Wanted::default()
         };
         if let Some(rerun) = &self.rerun {
+            wanted.columns_every = 0;
             rerun.want(scene, self.pictures, &mut wanted);
         }
         wanted

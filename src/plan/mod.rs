@@ -27,6 +27,8 @@ pub struct Wanted {
     pub statistics: bool,
     /// Columns to bring to the host.
     pub columns: Vec<Column>,
+    /// Of frames 0, 1, 2, … every n-th brings them; all of them with 0.
+    pub columns_every: u32,
     /// Pictures, and of what.
     pub view: Option<View>,
     /// Where voxels are and how full, as boxes and as a square picture with so many texels a side.

@@ -409,7 +409,7 @@ impl Simulation {
             renderer.draw(&self.gpu, &mut encoder, self.count, time, &offsets)?;
         }
 
-        let parts = self.parts();
+        let parts = self.parts(index);
         let bytes = parts.iter().map(|(_, bytes)| bytes).sum();
         let pending = Pending {
             index,
@@ -452,7 +452,7 @@ impl Simulation {
     }
 
     /// Name and bytes of what a frame brings to the host.
-    fn parts(&self) -> Vec<(&'static str, u64)> {
+    fn parts(&self, index: u32) -> Vec<(&'static str, u64)> {
         let mut parts = vec![
             ("guard", Guard::LAYOUT.size as u64),
             ("clock", Clock::LAYOUT.size as u64),
@@ -464,12 +464,15 @@ impl Simulation {
         if self.buffers.contains("overflow") {
             parts.push(("overflow", Overflow::LAYOUT.size as u64));
         }
-        for name in frame::sources(&self.plan.wanted.columns) {
-            let bytes = match name {
-                "position" | "velocity" => dem::packed_bytes(self.scene.dimensions),
-                _ => 4,
-            };
-            parts.push((name, bytes * u64::from(self.count)));
+        let wanted = &self.plan.wanted;
+        if index.is_multiple_of(wanted.columns_every.max(1)) {
+            for name in frame::sources(&wanted.columns) {
+                let bytes = match name {
+                    "position" | "velocity" => dem::packed_bytes(self.scene.dimensions),
+                    _ => 4,
+                };
+                parts.push((name, bytes * u64::from(self.count)));
+            }
         }
         if let Some(side) = self.plan.wanted.voxel_map {
             parts.push(("voxel_map", 4 * u64::from(side) * u64::from(side)));
