@@ -15,6 +15,7 @@ fn wanted(without: &str) -> Wanted {
     Wanted {
         statistics: true,
         columns: measured.filter(|c| c.name != without).collect(),
+        columns_every: 0,
         view: None,
         voxel_map: Some(64),
     }
