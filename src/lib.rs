@@ -32,7 +32,8 @@
 //! - `src/output/`: sinks, each fed by bounded threads, and the run that drives them (`src/output/drive.rs`); its
 //!   checkpoints, and how it goes on from them (`src/output/resume.rs`); recordings for the Rerun viewer
 //!   (`src/output/rerun.rs`).
-//! - `src/study/`: what the papers measured, measured again, a page each.
+//! - `src/study/`: what the papers measured, measured again, a page each; errors against theory and experiment, beside
+//!   what they cost (`src/study/accuracy/`).
 //! - `src/cli/`: one file a command.
 //!
 //! `shaders/` mirrors this: `shaders/common/`, `shaders/cells/` (addressing), `shaders/storage/`, `shaders/physics/`,
@@ -58,7 +59,8 @@
 //! - a column: one row in `src/scene/column.rs` and one file in `shaders/render/columns/`;
 //! - a format of particle files: one row in `src/output/particles/formats.rs`; a kind of video: one in
 //!   `src/output/video/mod.rs`;
-//! - a color map: one row in `src/scene/color_maps.rs`.
+//! - a color map: one row in `src/scene/color_maps.rs`;
+//! - a case with a known truth: one file and one row in `src/study/accuracy/cases/`, its data in `assets/reference/`.
 
 pub mod cli;
 pub mod error;

@@ -151,3 +151,79 @@ fn harada_has_a_page_with_the_same_figures_as_its_json() {
     assert_eq!(bytes("`uniform`"), 43.0 * 43.0 * 16.0 * 16.0);
     assert!(bytes("`sliced`") < bytes("`uniform`") / 4.0);
 }
+
+#[test]
+fn accuracy_is_judged_and_drawn() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (page, json) = run("accuracy", folder.path());
+    let records = json["records"].as_array().expect("records");
+    let value = |case: &str, integrator: &str, resolution: u32, figure: &str| {
+        let of_run = |record: &&Value| {
+            record["case"] == case
+                && record["method"]["integrator"] == integrator
+                && record["resolution"] == resolution
+        };
+        let record = records.iter().find(of_run).expect("the run");
+        assert!(record["wall"].as_f64().expect("seconds") > 0.0);
+        let updates =
+            record["particles"].as_u64().expect("a count") * record["steps"].as_u64().expect("a count");
+        assert_eq!(record["particle_updates"], updates);
+        let figures = record["figures"].as_array().expect("figures");
+        let found = figures.iter().find(|row| row["name"] == figure).expect(figure);
+        found["value"].as_f64().expect("a number")
+    };
+    for integrator in ["symplectic_euler", "velocity_verlet"] {
+        let [coarse, fine] = [20, 50].map(|steps| value("collision", integrator, steps, "worst |Δe|"));
+        assert!(
+            fine < 0.6 * coarse && fine < 0.015,
+            "{integrator}: {coarse} {fine}"
+        );
+        let [coarse, fine] = [20, 50].map(|steps| value("gas", integrator, steps, "energy drift"));
+        assert!(
+            fine < 0.5 * coarse && coarse < 1e-3,
+            "{integrator}: {coarse} {fine}"
+        );
+    }
+    assert!(page.contains("| LIGGGHTS (f64) | ≤ 0.001 |"), "{page}");
+    for case in ["collision", "gas"] {
+        for diagram in ["time", "updates", "resolution"] {
+            let png = format!("{case}_{diagram}.png");
+            assert!(page.contains(&format!("]({png})")), "{png}");
+            image::image_dimensions(folder.path().join(&png)).expect(&png);
+            let svg = std::fs::read_to_string(folder.path().join(format!("{case}_{diagram}.svg")));
+            assert!(
+                svg.expect("an SVG").contains("velocity_verlet"),
+                "{case} {diagram}"
+            );
+        }
+    }
+}
+
+#[test]
+fn cases_are_chosen_by_name_and_resolution() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut chosen = study("accuracy", folder.path());
+    chosen.args(["--case", "collision", "--resolution", "30"]);
+    chosen.assert().success();
+    let json = std::fs::read_to_string(folder.path().join("accuracy.json")).expect("JSON");
+    let json: Value = serde_json::from_str(&json).expect("valid JSON");
+    let records = json["records"].as_array().expect("records");
+    assert_eq!(records.len(), 2);
+    assert!(records.iter().all(|record| record["resolution"] == 30));
+
+    for (subject, more, told) in [
+        (
+            "accuracy",
+            ["--case", "colission"],
+            "there is no case `colission`",
+        ),
+        ("harada", ["--resolution", "3"], "no cases and no resolutions"),
+    ] {
+        let output = study(subject, &folder.path().join("other"))
+            .args(more)
+            .output()
+            .expect("it starts");
+        assert_eq!(output.status.code(), Some(2));
+        assert!(String::from_utf8_lossy(&output.stderr).contains(told));
+    }
+}

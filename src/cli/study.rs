@@ -4,20 +4,27 @@ use std::path::PathBuf;
 
 use super::device_args::DeviceArgs;
 use super::stdout;
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::study::accuracy::Choice;
+use crate::study::accuracy::cases::CASES;
 use crate::study::{self, Settings, Size};
 
-/// Measures again what a paper measured, and writes a page with the paper's figures beside ours
+/// Measures what papers measured, or errors against theory, and writes a page with others' figures beside ours
 ///
 /// Writes one Markdown page with its pictures, and one JSON file with the same figures; says where the page is.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
-    paper: Paper,
+    subject: Subject,
+    #[arg(long = "case", value_name = "CASE", help = cases_help())]
+    cases: Vec<String>,
+    /// `accuracy`: resolutions in place of each case's own (particles across, steps a contact)
+    #[arg(long = "resolution", value_name = "N,…", value_delimiter = ',')]
+    resolutions: Vec<u32>,
     /// `small` takes minutes on two cores; `full` has the papers' own sizes and wants a graphics card
     #[arg(long, value_name = "SIZE", default_value = "small")]
     size: SizeWord,
-    /// Folder to write [default: out/study/PAPER]
+    /// Folder to write [default: out/study/SUBJECT]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Replaces an earlier study in that folder
@@ -31,14 +38,18 @@ const EXAMPLES: &str = "\
 Examples:
   sliceflow study harada
   sliceflow study green --size full --adapter 0
-  sliceflow study harada --out out/today --force";
+  sliceflow study harada --out out/today --force
+  sliceflow study accuracy
+  sliceflow study accuracy --case collision --resolution 50,200,1000";
 
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
-enum Paper {
+enum Subject {
     /// Harada 2007: the sliced grid's memory and times
     Harada,
     /// Green 2012: atomics, scan and sort
     Green,
+    /// Errors against theory and experiment, beside what they cost
+    Accuracy,
 }
 
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
@@ -49,11 +60,30 @@ enum SizeWord {
     Full,
 }
 
+fn cases_help() -> String {
+    let names: Vec<_> = CASES.iter().map(|case| case.name).collect();
+    format!(
+        "`accuracy`: runs this case alone ({}); may be given again",
+        names.join(", ")
+    )
+}
+
 pub fn main(args: &Args) -> Result<()> {
-    let (name, study): (_, fn(&Settings) -> Result<PathBuf>) = match args.paper {
-        Paper::Harada => ("harada", study::harada),
-        Paper::Green => ("green", study::green),
+    let choice = Choice {
+        cases: args.cases.clone(),
+        resolutions: args.resolutions.clone(),
     };
+    let (name, study): (_, &dyn Fn(&Settings) -> Result<PathBuf>) = match args.subject {
+        Subject::Harada => ("harada", &study::harada),
+        Subject::Green => ("green", &study::green),
+        Subject::Accuracy => ("accuracy", &|settings| study::accuracy(settings, &choice)),
+    };
+    if choice != Choice::default() && name != "accuracy" {
+        return Err(Error::usage(
+            format!("`study {name}` has no cases and no resolutions to choose"),
+            "leave out --case and --resolution, or study `accuracy`",
+        ));
+    }
     let page = study(&Settings {
         size: match args.size {
             SizeWord::Tiny => Size::Tiny,

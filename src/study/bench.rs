@@ -39,6 +39,15 @@ impl Bench {
         })
     }
 
+    /// Name, kind and driver of the adapter, in one line.
+    pub fn adapter(&self) -> String {
+        let identity = &self.identity;
+        format!(
+            "{} ({}, {} {})",
+            identity.name, identity.backend, identity.driver, identity.driver_info
+        )
+    }
+
     /// Says on the page what measured, and how.
     pub fn describe(&self, page: &mut Page, effort: Effort) {
         let identity = &self.identity;

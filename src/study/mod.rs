@@ -1,5 +1,6 @@
-//! Studies: what the papers measured, measured again, on one page each.
+//! Studies, on one page each: what the papers measured, measured again; errors against theory and experiment.
 
+pub mod accuracy;
 mod bench;
 mod cpu_grid;
 mod green;
@@ -10,6 +11,7 @@ mod scenes;
 
 use std::path::PathBuf;
 
+pub use accuracy::accuracy;
 pub use green::green;
 pub use harada::harada;
 

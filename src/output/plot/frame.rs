@@ -64,6 +64,14 @@ impl Look {
         });
     }
 
+    /// Two strokes across each other.
+    pub fn cross(self, canvas: &mut Canvas, (x, y): At) {
+        let r = 1.4 * MARKER;
+        for side in [r, -r] {
+            canvas.line(vec![(x - r, y - side), (x + r, y + side)], self.color, STROKE);
+        }
+    }
+
     pub fn stroke(self, canvas: &mut Canvas, points: Vec<At>) {
         canvas.line(points, self.color, STROKE);
     }

@@ -23,13 +23,16 @@ pub use bars::Bars;
 
 use crate::error::Result;
 use axis::{Axis, Scale};
-use canvas::{At, Canvas, FAINT};
+use canvas::{Anchor, At, Canvas, FAINT, INK};
 use frame::{Entry, Sample, Ticks, Words, dashes, look};
 
 /// Pixels of a chart unless it says otherwise.
 const SIZE: (u32, u32) = (1000, 600);
 /// Series with more points than this have no markers.
 const MOST_MARKERS: usize = 24;
+/// Of labels beside points, and their distance from them.
+const LABEL: f64 = 14.0;
+const APART: (f64, f64) = (8.0, -10.0);
 
 /// Lines over two axes.
 #[derive(Debug, Clone)]
@@ -51,6 +54,10 @@ struct Series {
     name: String,
     points: Vec<At>,
     joined: bool,
+    /// Texts beside points, as many as there are.
+    labels: Vec<(At, String)>,
+    /// Where something came to nothing.
+    crosses: Vec<At>,
 }
 
 /// Something to compare with.
@@ -97,7 +104,31 @@ impl Plot {
             name: name.into(),
             points: points.into_iter().collect(),
             joined,
+            labels: Vec::new(),
+            crosses: Vec::new(),
         });
+        self
+    }
+
+    /// Texts beside the points of the series that was added last, in their order.
+    pub fn labelled<S: Into<String>>(mut self, labels: impl IntoIterator<Item = S>) -> Self {
+        if let Some(series) = self.series.last_mut() {
+            let places = series.points.iter().copied();
+            series
+                .labels
+                .extend(places.zip(labels.into_iter().map(Into::into)));
+        }
+        self
+    }
+
+    /// Crosses in the color of the series that was added last, each with a text beside it: runs that failed, say.
+    pub fn crosses<S: Into<String>>(mut self, places: impl IntoIterator<Item = (At, S)>) -> Self {
+        if let Some(series) = self.series.last_mut() {
+            for (place, label) in places {
+                series.crosses.push(place);
+                series.labels.push((place, label.into()));
+            }
+        }
         self
     }
 
@@ -148,7 +179,17 @@ impl Plot {
 
     fn draw(&self) -> Canvas {
         let mut canvas = Canvas::new(self.size);
-        let points = || self.series.iter().flat_map(|series| &series.points);
+        let points = || {
+            let all = |series: &'_ Series| {
+                series
+                    .points
+                    .iter()
+                    .chain(&series.crosses)
+                    .copied()
+                    .collect::<Vec<_>>()
+            };
+            self.series.iter().flat_map(all)
+        };
         let xs = points()
             .map(|p| p.0)
             .chain(self.marks.iter().flat_map(|mark| match mark {
@@ -209,6 +250,13 @@ impl Plot {
                 for point in series.points.iter().filter(|point| shown(point)) {
                     look.mark(&mut canvas, place(point));
                 }
+            }
+            for point in series.crosses.iter().filter(|point| shown(point)) {
+                look.cross(&mut canvas, place(point));
+            }
+            for (point, label) in series.labels.iter().filter(|(point, _)| shown(point)) {
+                let (x, y) = place(point);
+                canvas.text((x + APART.0, y + APART.1), label, LABEL, INK, Anchor::Left);
             }
         }
         canvas

@@ -113,6 +113,32 @@ fn what_has_no_place_is_told() {
 }
 
 #[test]
+fn points_have_labels_and_failures_crosses() {
+    let folder = tempfile::tempdir().unwrap();
+    let plain = Plot::new("", "", "")
+        .series("a", [(1.0, 2.0), (10.0, 1.0)])
+        .log_x()
+        .log_y();
+    let files = ["plain.png", "crossed.png", "crossed.svg"].map(|name| folder.path().join(name));
+    plain.save(&files[0]).unwrap();
+    let crossed = plain.labelled(["25²", "50²"]).crosses([((5.0, 1.5), "100²")]);
+    crossed.save(&files[1]).unwrap();
+    crossed.save(&files[2]).unwrap();
+    let [before, after] = [0, 1].map(|file| pixels(&files[file], look(0).color));
+    assert!(after > before + 20, "{before} {after}");
+    let text = std::fs::read_to_string(&files[2]).unwrap();
+    for label in ["25²", "50²", "100²"] {
+        assert!(text.contains(label), "{label}");
+    }
+    // A cross beyond the other points is in sight.
+    let far = Plot::new("", "", "")
+        .series("a", [(1.0, 2.0)])
+        .crosses([((500.0, 2.0), "far")]);
+    far.save(&files[2]).unwrap();
+    assert!(std::fs::read_to_string(&files[2]).unwrap().contains("far"));
+}
+
+#[test]
 fn other_endings_are_refused() {
     let refused = lines().save(Path::new("/tmp/plot.pdf")).unwrap_err();
     assert_eq!(refused.exit_code(), 2);

@@ -1,0 +1,89 @@
+//! What is measured: a row of the table [`CASES`] for each case.
+
+mod collision;
+mod dem;
+mod gas;
+
+use super::published::Published;
+use super::record::Record;
+use crate::error::{Error, Result};
+use crate::study::Size;
+use crate::study::bench::Bench;
+
+/// One case, which runs at several resolutions.
+#[derive(Clone, Copy)]
+pub struct Case {
+    /// For `--case`.
+    pub name: &'static str,
+    pub title: &'static str,
+    /// For the page: truth, set-up, measure, sources.
+    pub about: &'static str,
+    /// What a resolution counts: `particles across`.
+    pub resolution: &'static str,
+    /// A resolution in words: `100²`.
+    pub label: fn(u32) -> String,
+    pub resolutions: fn(Size) -> &'static [u32],
+    /// Name of the figure that diagrams show.
+    pub figure: &'static str,
+    pub published: &'static [Published],
+    /// All methods at one resolution.
+    pub run: fn(&Bench, Size, u32) -> Result<Vec<Record>>,
+}
+
+pub const CASES: &[Case] = &[collision::CASE, gas::CASE];
+
+/// The cases of these names, all where none is named.
+pub fn named(names: &[String]) -> Result<Vec<&'static Case>> {
+    if names.is_empty() {
+        return Ok(CASES.iter().collect());
+    }
+    let known: Vec<_> = CASES.iter().map(|case| case.name).collect();
+    let find = |name: &String| {
+        CASES.iter().find(|case| case.name == name).ok_or_else(|| {
+            Error::usage(
+                format!("there is no case `{name}`"),
+                format!("name one of {}", known.join(", ")),
+            )
+        })
+    };
+    names.iter().map(find).collect()
+}
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+    use crate::study::accuracy::published;
+
+    /// A case that never runs.
+    pub fn vortices() -> Case {
+        Case {
+            name: "vortices",
+            title: "Taylor–Green vortices, Re 100",
+            about: "Vortices decay.",
+            resolution: "particles across",
+            label: |n| format!("{n}²"),
+            resolutions: |_| &[25, 50, 100],
+            figure: "L1 of speed",
+            published: published::TAYLOR_GREEN,
+            run: |_, _, _| Ok(Vec::new()),
+        }
+    }
+
+    #[test]
+    fn cases_are_found_by_name() {
+        assert_eq!(named(&[]).unwrap().len(), CASES.len());
+        assert_eq!(named(&["gas".into()]).unwrap()[0].name, "gas");
+        let told = named(&["cavity7".into()]).map(|_| ()).unwrap_err();
+        assert_eq!(told.exit_code(), 2);
+        assert!(told.to_string().contains("collision"), "{told}");
+    }
+
+    #[test]
+    fn names_are_unique_and_larger_studies_hold_more() {
+        for case in CASES {
+            assert_eq!(CASES.iter().filter(|other| other.name == case.name).count(), 1);
+            let [tiny, small, full] = [Size::Tiny, Size::Small, Size::Full].map(case.resolutions);
+            assert!(!tiny.is_empty() && tiny.len() <= small.len() && small.len() <= full.len());
+        }
+    }
+}
