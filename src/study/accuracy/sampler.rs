@@ -192,11 +192,7 @@ mod tests {
                 let at = DVec3::new(x, y, z);
                 assert!((sampler.scalar(at, &constant).unwrap() - 3.5).abs() < 1e-14);
                 assert!((sampler.scalar(at, &line).unwrap() - (2.0 * x - y + z)).abs() < 6e-3);
-                assert!(
-                    (sampler.filling(at) - 1.0).abs() < 0.05,
-                    "{}",
-                    sampler.filling(at)
-                );
+                assert!((sampler.filling(at) - 1.0).abs() < 0.1, "{}", sampler.filling(at));
             }
             // Exact in the corner too, and nothing outside.
             assert!((sampler.scalar(DVec3::ZERO, &constant).unwrap() - 3.5).abs() < 1e-14);
