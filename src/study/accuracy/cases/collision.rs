@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::scene::model::Integrator;
 use crate::scene::{Particles, Scene};
 use crate::study::Size;
-use crate::study::accuracy::cases::dem::{method, vectors, with_steps};
+use crate::study::accuracy::cases::dem::{frequency, method, vectors, with_steps};
 use crate::study::accuracy::norms::Norms;
 use crate::study::accuracy::published;
 use crate::study::accuracy::record::{Bar, Figure, Record};
@@ -94,10 +94,9 @@ fn pairs(integrator: Integrator, restitution: f64, steps: u32) -> Result<Scene> 
     file["grains"]["restitution"] = restitution.into();
     file["grains"]["shear"] = 0.into();
     let empty = scenes::with_particles(&file, Particles::default())?;
-    let grains = empty.grains;
     let contact = Collision {
         restitution,
-        frequency: (grains.contact.spring / (grains.mass / 2.0)).sqrt(),
+        frequency: frequency(&empty),
         speed: 2.0 * SPEED,
     };
     let step = contact.duration() / f64::from(steps);

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use crate::scene::Scene;
 use crate::scene::model::Integrator;
+use crate::scene::{Grains, Scene};
 use crate::simulation::frame::{Frame, Values};
 use crate::study::accuracy::record::Method;
 
@@ -14,6 +14,19 @@ pub fn method(integrator: Integrator) -> Method {
         integrator: integrator.as_str().unwrap_or_default().to_owned(),
         ..Default::default()
     }
+}
+
+/// # Panics
+///
+/// For a scene of fluid.
+pub fn grains(scene: &Scene) -> &Grains {
+    scene.grains().expect("a scene of grains")
+}
+
+/// ω0 of two grains in contact, rad/s: their spring and half a grain's mass.
+pub fn frequency(scene: &Scene) -> f64 {
+    let grains = grains(scene);
+    (grains.contact.spring / (grains.mass / 2.0)).sqrt()
 }
 
 /// The scene with this time step (s) and so many steps a frame.

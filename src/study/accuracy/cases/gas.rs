@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::scene::Scene;
 use crate::scene::model::Integrator;
 use crate::study::Size;
-use crate::study::accuracy::cases::dem::{method, vectors, with_steps};
+use crate::study::accuracy::cases::dem::{frequency, grains, method, vectors, with_steps};
 use crate::study::accuracy::published;
 use crate::study::accuracy::record::{Bar, Figure, Record};
 use crate::study::accuracy::run::{Run, run};
@@ -125,7 +125,7 @@ fn gas(integrator: Integrator, seed: u64, steps: u32, frames: u32) -> Result<Sce
     let mut scene = scenes::with_particles(&file, particles)?;
     let contact = Collision {
         restitution: 1.0,
-        frequency: (scene.grains.contact.spring / (scene.grains.mass / 2.0)).sqrt(),
+        frequency: frequency(&scene),
         speed: 1.0,
     };
     scene.time.integrator = integrator;
@@ -140,7 +140,7 @@ fn gas(integrator: Integrator, seed: u64, steps: u32, frames: u32) -> Result<Sce
 
 /// Joules of motion and of all springs, and the pairs that touch. Positions in the scene's own coordinates.
 fn energy(scene: &Scene, position: &[DVec3], velocity: &[DVec3]) -> (f64, Vec<(usize, usize)>) {
-    let grains = scene.grains;
+    let grains = grains(scene);
     let spring = |overlap: f64| 0.5 * grains.contact.spring * overlap.max(0.0).powi(2);
     let motion: f64 = velocity
         .iter()
