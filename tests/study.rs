@@ -173,7 +173,7 @@ fn accuracy_is_judged_and_drawn() {
         found["value"].as_f64().expect("a number")
     };
     for integrator in ["symplectic_euler", "velocity_verlet"] {
-        let [coarse, fine] = [20, 50].map(|steps| value("collision", integrator, steps, "worst |Δe|"));
+        let [coarse, fine] = [20, 50].map(|steps| value("collision", integrator, steps, "worst error of e"));
         assert!(
             fine < 0.6 * coarse && fine < 0.015,
             "{integrator}: {coarse} {fine}"

@@ -223,15 +223,22 @@ impl Plot {
             &self.legend(),
         );
         let place = |&(x, y): &At| (field.x(x_axis.place(x)), field.y(y_axis.place(y)));
+        // Among several dashed lines each says which it is.
+        let lines = self.marks.iter().filter(|mark| matches!(mark, Mark::Y(..)));
+        let several = lines.count() > 1;
         for mark in &self.marks {
             match mark {
                 Mark::X(x, _) => {
                     let x = field.x(x_axis.place(*x));
                     dashes(&mut canvas, (x, field.bottom), (x, field.top));
                 }
-                Mark::Y(y, _) => {
+                Mark::Y(y, name) => {
                     let y = field.y(y_axis.place(*y));
                     dashes(&mut canvas, (field.left, y), (field.right, y));
+                    if several {
+                        let at = (field.left - APART.1, y + APART.1);
+                        canvas.text(at, name.as_str(), LABEL, FAINT, Anchor::Left);
+                    }
                 }
                 Mark::Band(low, high, _) => {
                     let (low, high) = (field.y(y_axis.place(*low)), field.y(y_axis.place(*high)));

@@ -121,7 +121,10 @@ fn points_have_labels_and_failures_crosses() {
         .log_y();
     let files = ["plain.png", "crossed.png", "crossed.svg"].map(|name| folder.path().join(name));
     plain.save(&files[0]).unwrap();
-    let crossed = plain.labelled(["25²", "50²"]).crosses([((5.0, 1.5), "100²")]);
+    let crossed = plain
+        .clone()
+        .labelled(["25²", "50²"])
+        .crosses([((5.0, 1.5), "100²")]);
     crossed.save(&files[1]).unwrap();
     crossed.save(&files[2]).unwrap();
     let [before, after] = [0, 1].map(|file| pixels(&files[file], look(0).color));
@@ -130,6 +133,16 @@ fn points_have_labels_and_failures_crosses() {
     for label in ["25²", "50²", "100²"] {
         assert!(text.contains(label), "{label}");
     }
+    // Of several dashed lines each has its name beside it and in the legend.
+    let lines = plain.mark_y(1.0, "low").mark_y(2.0, "high");
+    lines.save(&files[2]).unwrap();
+    assert_eq!(
+        std::fs::read_to_string(&files[2])
+            .unwrap()
+            .matches("high")
+            .count(),
+        2
+    );
     // A cross beyond the other points is in sight.
     let far = Plot::new("", "", "")
         .series("a", [(1.0, 2.0)])

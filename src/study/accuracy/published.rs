@@ -71,7 +71,7 @@ pub const STILL_WATER: &[Published] = &[Published {
 
 const LIGGGHTS: &str = "LIGGGHTS-FLOWLAB, audit of its physics";
 
-/// Head-on collisions with a linear spring and dashpot: the worst |Δe| (`assets/reference/dem_restitution_error_vs_dt.csv`).
+/// Head-on collisions with a linear spring and dashpot: the worst error of e (`assets/reference/dem_restitution_error_vs_dt.csv`).
 pub const COLLISION: &[Published] = &[Published {
     method: "LIGGGHTS (f64)",
     source: LIGGGHTS,

@@ -21,7 +21,7 @@ pub const CASE: Case = Case {
     title: "Linear spring-dashpot collision",
     about: "Two grains meet head-on, and the contact ends at zero overlap, where the closed form of a damped oscillator \
             gives back e times the speed. Sixteen pairs touch at sixteen different parts of a step; e is 0.1, 0.3, 0.5, \
-            0.7, 0.9 and 1. The figure is the largest |Δe| of all.",
+            0.7, 0.9 and 1. The figure is the largest difference from e of all.",
     resolution: "steps a contact",
     label: |steps| steps.to_string(),
     resolutions: |size| match size {
@@ -33,7 +33,7 @@ pub const CASE: Case = Case {
     run: both_integrators,
 };
 
-const FIGURE: &str = "worst |Δe|";
+const FIGURE: &str = "worst error of e";
 /// The bar is set for this many steps a contact.
 const JUDGED: u32 = 50;
 const BAR: f64 = 1e-3;
@@ -70,7 +70,7 @@ fn record(bench: &Bench, integrator: Integrator, steps: u32) -> Result<Record> {
             .map(|pair| (pair[1].x - pair[0].x) / (2.0 * SPEED));
         let error = Norms::new(found.map(|found| (found, restitution))).largest;
         errors.push(Figure::new(
-            format!("|Δe| at e = {restitution}"),
+            format!("error of e = {restitution}"),
             run.diverged.is_none().then_some(error),
             "",
         ));

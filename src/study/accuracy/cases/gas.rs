@@ -47,7 +47,7 @@ const SPEED: f32 = 0.5;
 fn extent(size: Size) -> (u64, u32) {
     match size {
         Size::Tiny => (1, 40),
-        Size::Small => (2, 600),
+        Size::Small => (4, 600),
         Size::Full => (16, 600),
     }
 }
