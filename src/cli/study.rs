@@ -73,10 +73,10 @@ pub fn main(args: &Args) -> Result<()> {
         cases: args.cases.clone(),
         resolutions: args.resolutions.clone(),
     };
-    let (name, study): (_, &dyn Fn(&Settings) -> Result<PathBuf>) = match args.subject {
-        Subject::Harada => ("harada", &study::harada),
-        Subject::Green => ("green", &study::green),
-        Subject::Accuracy => ("accuracy", &|settings| study::accuracy(settings, &choice)),
+    let name = match args.subject {
+        Subject::Harada => "harada",
+        Subject::Green => "green",
+        Subject::Accuracy => "accuracy",
     };
     if choice != Choice::default() && name != "accuracy" {
         return Err(Error::usage(
@@ -84,7 +84,7 @@ pub fn main(args: &Args) -> Result<()> {
             "leave out --case and --resolution, or study `accuracy`",
         ));
     }
-    let page = study(&Settings {
+    let settings = Settings {
         size: match args.size {
             SizeWord::Tiny => Size::Tiny,
             SizeWord::Small => Size::Small,
@@ -96,6 +96,11 @@ pub fn main(args: &Args) -> Result<()> {
             .unwrap_or_else(|| PathBuf::from("out/study").join(name)),
         force: args.force,
         adapter: args.device.adapter(),
-    })?;
+    };
+    let page = match args.subject {
+        Subject::Harada => study::harada(&settings),
+        Subject::Green => study::green(&settings),
+        Subject::Accuracy => study::accuracy(&settings, &choice),
+    }?;
     stdout::print(&format!("{}\n", page.display()))
 }

@@ -25,7 +25,7 @@ pub fn couette(eta: f64, time: f64) -> f64 {
     }
     let decaying = terms(time, 1, 1)
         .map(|(k, decay)| {
-            let sign = if k as u64 % 2 == 0 { 1.0 } else { -1.0 };
+            let sign = (-1.0_f64).powi(k as i32);
             2.0 * sign / (PI * k) * (PI * k * eta).sin() * decay
         })
         .sum::<f64>();
