@@ -27,6 +27,10 @@ impl Obstacles {
             moving: scene.colliders.iter().any(|collider| !collider.path.is_empty()),
             ..Self::default()
         };
+        if scene.fluid().is_some() {
+            // A fluid meets boundary particles instead.
+            return all;
+        }
         for collider in &scene.colliders {
             let described = all.describe(scene, collider);
             all.colliders.push(described);
