@@ -47,7 +47,7 @@ pub struct Search {
 
 /// What a scene's first state needs, with the slicing axis that needs least where the scene leaves it open.
 pub fn first_grid(scene: &Scene) -> Grid {
-    let (grid, room) = least(scene, &scene.particles.position);
+    let (grid, room) = least(scene, &scene.positions());
     roomy(scene, grid, room)
 }
 

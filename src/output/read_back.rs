@@ -117,10 +117,9 @@ impl Snapshot {
         let state = Checkpoint::read(path)
             .map_err(|wrong| Error::file(path, "read", wrong, "remove it, and do without its frame"))?
             .state;
-        let mut slot_of = vec![0; state.particles as usize];
-        for (slot, id) in state.ids().into_iter().enumerate() {
-            slot_of[id as usize] = slot;
-        }
+        let ids = state.ids();
+        let mut slot_of: Vec<usize> = (0..ids.len()).collect();
+        slot_of.sort_by_key(|&slot| ids[slot]);
         let column = |name: &str| {
             let vectors = state.vectors(name)?;
             let origin = if name == "position" {

@@ -39,7 +39,10 @@ pub fn redraw(recorded: &Recorded, overrides: &[String], settings: &Settings) ->
     for frame in source.frames() {
         if let Some(snapshot) = source.read(frame)?.filter(|s| s.column("position").is_some()) {
             check_color(&scene, &snapshot, frame)?;
-            scene.capacity = scene.capacity.max(snapshot.particles() as u32);
+            if snapshot.state.is_none() {
+                let free = scene.first_wall().max(snapshot.particles() as u32);
+                scene.capacity = free + scene.walls.len() as u32;
+            }
             frames.push(frame);
         }
     }
@@ -160,6 +163,14 @@ fn check_color(scene: &Scene, snapshot: &Snapshot, frame: u32) -> Result<()> {
         return Err(Error::usage(
             format!("frame {frame} cannot be colored by {column}: its particle files have no velocity"),
             "choose another color, such as --set render.color.by=y, or run again with --columns position,velocity",
+        ));
+    }
+    if scene.fluid().is_some() && ["density", "pressure"].contains(&column) && snapshot.state.is_none() {
+        return Err(Error::usage(
+            format!(
+                "frame {frame} cannot be colored by {column}: a fluid's is not found anew from its particle files"
+            ),
+            "choose another color, such as --set render.color.by=speed, or draw from checkpoints",
         ));
     }
     Ok(())

@@ -105,6 +105,11 @@ impl Scene {
         }
     }
 
+    /// Local positions at the start, metres, boundary particles last.
+    pub fn positions(&self) -> Vec<Vec3> {
+        [&self.particles.position[..], &self.walls.position].concat()
+    }
+
     /// Where ids of boundary particles begin.
     pub fn first_wall(&self) -> u32 {
         self.capacity - self.walls.len() as u32

@@ -46,8 +46,11 @@ impl State {
     /// The state of particles 0, 1, 2, … at `position` (the scene's coordinates, metres) with `velocity` (m/s), as a
     /// start for pictures and measures.
     pub fn of_particles(scene: &Scene, frame: u32, position: &[DVec3], velocity: &[Vec3]) -> Self {
-        let local: Vec<Vec3> = position.iter().map(|&p| (p - scene.origin).as_vec3()).collect();
-        let ids: Vec<u32> = (0..position.len() as u32).collect();
+        let local = position.iter().map(|&p| (p - scene.origin).as_vec3());
+        let local: Vec<Vec3> = local.chain(scene.walls.position.iter().copied()).collect();
+        let velocity = [velocity, &scene.walls.surface_velocity].concat();
+        let walls = scene.first_wall()..scene.capacity;
+        let ids: Vec<u32> = (0..position.len() as u32).chain(walls).collect();
         Self {
             frame,
             particles: ids.len() as u32,
@@ -55,7 +58,7 @@ impl State {
             origin: scene.origin,
             buffers: vec![
                 ("position".into(), pack(&local, scene.dimensions)),
-                ("velocity".into(), pack(velocity, scene.dimensions)),
+                ("velocity".into(), pack(&velocity, scene.dimensions)),
                 ("id".into(), bytemuck::cast_slice(&ids).to_vec()),
             ],
         }

@@ -39,7 +39,7 @@ impl Measured {
         let mut scene = subject.scene.clone();
         scene.neighbors = through.neighbors;
         let name = grid::name(&scene.neighbors);
-        let census = Census::of(&scene, &scene.particles.position);
+        let census = Census::of(&scene, &scene.positions());
         let allocation = Allocation::of(&scene, &census);
         let along = census.slices().into_iter().map(|slice| slice.at);
         let slices = allocation.slices.clone();

@@ -93,6 +93,6 @@ fn uniform(scene: &Scene, neighbors: Neighbors) -> (String, Allocation) {
         ..neighbors
     };
     let name = grid::name(&scene.neighbors);
-    let census = Census::of(&scene, &scene.particles.position);
+    let census = Census::of(&scene, &scene.positions());
     (name, Allocation::of(&scene, &census))
 }

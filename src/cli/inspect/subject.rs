@@ -107,10 +107,12 @@ impl Subject {
         }
         let time = f64::from(last) / scene.time.fps;
         let particles = simulation.particles()?;
-        let census = Census::of(&scene, &particles.position);
+        let simulated = last > 0 || scene.time.limited_by != NOTHING_MOVES;
+        let scene = still(scene, particles, time);
+        let census = Census::of(&scene, &scene.positions());
         Ok(Self {
-            simulated: last > 0 || scene.time.limited_by != NOTHING_MOVES,
-            scene: still(scene, particles, time),
+            simulated,
+            scene,
             frame: last,
             time,
             census,
@@ -146,7 +148,7 @@ fn still(mut scene: Scene, particles: Particles, time: f64) -> Scene {
             collider.path = vec![(0.0, offset_at(&collider.path, time))];
         }
     }
-    scene.capacity = particles.len() as u32;
+    scene.capacity = (particles.len() + scene.walls.len()) as u32;
     scene.particles = particles;
     scene.schedule.clear();
     scene.time.frames = 1;
