@@ -10,11 +10,11 @@ use sliceflow::physics::layout::SHARED;
 use sliceflow::plan::{Plan, Wanted};
 use sliceflow::scene::column::{COLUMNS, Source};
 
-fn wanted(without: &str) -> Wanted {
+fn wanted() -> Wanted {
     let measured = COLUMNS.iter().copied().filter(|c| c.source == Source::Measured);
     Wanted {
         statistics: true,
-        columns: measured.filter(|c| c.name != without).collect(),
+        columns: measured.collect(),
         columns_every: 0,
         view: None,
         voxel_map: Some(64),
@@ -69,7 +69,7 @@ fn fluid_plans() -> Vec<Plan> {
                 let walls = format!("domain.walls={walls}");
                 let overrides = [solver, &[&walls]].concat();
                 let scene = common::fluid(dimensions, &overrides);
-                plans.push(Plan::new(&scene, &Limits::PROMISED, &wanted("contacts")).expect("a plan"));
+                plans.push(Plan::new(&scene, &Limits::PROMISED, &wanted()).expect("a plan"));
             }
         }
     }
@@ -78,7 +78,7 @@ fn fluid_plans() -> Vec<Plan> {
 
 /// Plans that together use every flag and role.
 fn plans() -> Vec<Plan> {
-    let wanted = wanted("");
+    let wanted = wanted();
     let mut plans = fluid_plans();
     for dimensions in [2, 3] {
         for addressing in ADDRESSINGS.iter().map(|row| row.name) {

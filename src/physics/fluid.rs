@@ -17,6 +17,8 @@ use crate::scene::model::{
 use crate::scene::walls::NO_BODY;
 use crate::scene::{self, Scene};
 
+/// Flag of every variant of a fluid.
+pub const FLAG: &str = "fluid";
 /// Farthest that one step may shift a particle, as a share of the spacing.
 const LONGEST_SHIFT: f64 = 0.05;
 /// The shift of δ⁺-SPH in units of h × expected speed (Sun 2017, with its h half of the support).
@@ -51,6 +53,7 @@ pub fn plan(
     let sticks = walls && viscous && fluid.slip == Slip::NoSlip;
     let shifting = fluid.shifting > 0.0;
     variant
+        .flag(FLAG, true)
         .role("kernel", kernel_file(fluid.kernel))
         .constant("GAMMA", fluid.gamma)
         .flag("boundary_particles", walls)

@@ -135,15 +135,7 @@ impl Plan {
                 wanted.statistics,
                 &mut variant,
             ),
-            Matter::Fluid(fluid) => {
-                if columns.iter().any(|column| column.name == "contacts") {
-                    return Err(Error::usage(
-                        "a fluid has no contacts",
-                        "leave the column `contacts` out, or take `density` or `pressure`",
-                    ));
-                }
-                fluid::plan(scene, fluid, &columns, wanted.statistics, &mut variant)
-            }
+            Matter::Fluid(fluid) => fluid::plan(scene, fluid, &columns, wanted.statistics, &mut variant),
         };
 
         let [start, step] = if neighbors::lists::wanted(scene) {
@@ -291,11 +283,12 @@ impl Plan {
         })
     }
 
-    /// What the shaders of a phase's passes are made of. Once a frame, when particles have just been searched, all look
+    /// What the shaders of a phase's passes are made of. Once a frame, when particles have just been searched, grains look
     /// at the voxels.
     pub fn variant_of(&self, phase: Phase) -> Variant {
         let mut variant = self.variant.clone();
-        if phase == Phase::Observe {
+        let fluid = variant.flags.contains(fluid::FLAG);
+        if phase == Phase::Observe && !fluid {
             variant.role("candidates", neighbors::FROM_VOXELS);
         }
         variant

@@ -31,14 +31,9 @@ pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
     let flat = known.frame.dimensions == Dimensions::Two;
     let names = column::COLUMNS.iter().map(|column| column.name);
     let names = names.filter(|name| !flat || !["z", "velocity_z"].contains(name));
-    let names = names.filter(|name| known.file.fluid.is_none() || *name != "contacts");
     let Some(column) = column::find(&color.by).filter(|column| names.clone().any(|name| name == column.name))
     else {
         let (what, mend) = match column::find(&color.by) {
-            Some(_) if color.by == "contacts" => (
-                "a fluid has no \"contacts\"".to_owned(),
-                format!("one of {}", list(names)),
-            ),
             Some(_) => (
                 format!("a 2D scene has no \"{}\"", color.by),
                 format!("one of {}", list(names)),
@@ -93,6 +88,7 @@ fn default_range(column: &str, known: &Known) -> [f64; 2] {
         "y" => extent(1),
         "z" => extent(2),
         "id" => [0.0, f64::from(known.capacity.max(2) - 1)],
+        "contacts" if file.fluid.is_some() => [0.0, if dimensions == 2 { 30.0 } else { 80.0 }],
         // Grains of one size touch at most six others in a plane, twelve in space.
         "contacts" => [0.0, if dimensions == 2 { 6.0 } else { 12.0 }],
         "density" if file.fluid.is_some() => [0.97 * file.density(), 1.03 * file.density()],

@@ -63,19 +63,19 @@ pub const COLUMNS: &[Column] = &[
     column(
         "contacts",
         "",
-        "grains and walls that touch the grain",
+        "grains and walls that touch the grain; particles that a fluid particle's kernel reaches",
         Source::Measured,
     ),
     column(
         "density",
         "kg/m³",
-        "mass of the grains in the block of voxels around, over the block's volume",
+        "mass of the grains in the block of voxels around, over the block's volume; of a fluid, its density",
         Source::Measured,
     ),
     column(
         "pressure",
         "Pa",
-        "sum of the normal contact forces over the grain's surface",
+        "sum of the normal contact forces over the grain's surface; of a fluid, its pressure",
         Source::Measured,
     ),
     column(

@@ -2,12 +2,13 @@
 #import common/thread
 #import common/vector
 #import common/parameters
-#import physics/present
-#import physics/fluid/coefficients
-#import physics/fluid/walls
+#import physics/fluid/pairs
 #import physics/fluid/material
 #import physics/fluid/state
 
+#if column_contacts
+var<storage, read_write> contacts: array<u32>;
+#end
 #if column_pressure
 var<storage, read_write> pressure: array<f32>; // Pa
 #end
@@ -29,6 +30,19 @@ fn measure_fluid(thread: Thread) {
     if alive {
         let state = fluid_state[i];
         let own = material_of(i);
+#if column_contacts
+        let x = unpack(position[i]);
+        let home = around(i, x);
+        var reached = 0u;
+        for (var k = 0u; k < RANGES; k++) {
+            let range = candidate_range(home, k);
+            for (var slot = range.x; slot < range.y; slot++) {
+                let j = candidate(slot);
+                reached += select(0u, 1u, within(toward(x, j), fluid.support) && j != i);
+            }
+        }
+        contacts[i] = reached;
+#end
 #if column_pressure
         pressure[i] = state.y;
 #end
