@@ -69,6 +69,13 @@ pub const STILL_WATER: &[Published] = &[Published {
     points: &[timed(45, 0.29, 48.5)],
 }];
 
+/// Start of Poiseuille and Couette flow: root mean square of the velocity error over the largest velocity, in percent.
+pub const CHANNEL: &[Published] = &[Published {
+    method: "Project Chrono, SPH (f32)",
+    source: "bounds of the tests of Chrono's fluid solver: 5e-3 of the largest velocity, 20 particles across",
+    points: &[point(20, 0.5)],
+}];
+
 const LIGGGHTS: &str = "LIGGGHTS-FLOWLAB, audit of its physics";
 
 /// Head-on collisions with a linear spring and dashpot: the worst error of e (`assets/reference/dem_restitution_error_vs_dt.csv`).

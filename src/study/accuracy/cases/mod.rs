@@ -1,8 +1,19 @@
 //! What is measured: a row of the table [`CASES`] for each case.
 
+mod channel;
 mod collision;
+mod columns;
 mod dem;
+mod fluid;
 mod gas;
+mod lid_cavity;
+mod lobovsky_dam;
+mod martin_moyce;
+mod spheric_2;
+mod still_water;
+mod taylor_couette;
+mod taylor_green_2d;
+mod taylor_green_3d;
 
 use super::published::Published;
 use super::record::Record;
@@ -30,7 +41,21 @@ pub struct Case {
     pub run: fn(&Bench, Size, u32) -> Result<Vec<Record>>,
 }
 
-pub const CASES: &[Case] = &[collision::CASE, gas::CASE];
+pub const CASES: &[Case] = &[
+    taylor_green_2d::CASE,
+    channel::POISEUILLE,
+    channel::COUETTE,
+    still_water::CASE,
+    taylor_couette::CASE,
+    lid_cavity::RE_100,
+    lid_cavity::RE_400,
+    martin_moyce::CASE,
+    lobovsky_dam::CASE,
+    taylor_green_3d::CASE,
+    spheric_2::CASE,
+    collision::CASE,
+    gas::CASE,
+];
 
 /// The cases of these names, all where none is named.
 pub fn named(names: &[String]) -> Result<Vec<&'static Case>> {

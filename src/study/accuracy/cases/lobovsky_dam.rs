@@ -1,0 +1,95 @@
+//! Pressures of a breaking dam at the far wall.
+
+use glam::DVec3;
+
+use super::Case;
+use super::fluid::{flow, record, shipped, spacing};
+use crate::error::Result;
+use crate::study::Size;
+use crate::study::accuracy::record::{Bar, Figure, Record};
+use crate::study::accuracy::reference;
+use crate::study::accuracy::sampler::Sampler;
+use crate::study::accuracy::series::Series;
+use crate::study::bench::Bench;
+
+pub const CASE: Case = Case {
+    name: "lobovsky_dam",
+    title: "Impact of a breaking dam",
+    about: "Water 0.3 m deep runs through a tank of 1.61 m and hits the far wall (scene `lobovsky_dam`; Lobovský 2014). \
+            Pressures at the wall are kernel sums over the particles near the sensors, averaged over 1 ms. Times count \
+            from the arrival at the sensor, since the experiment's gate takes time to open. The plateau is the mean \
+            from 0.5 to 2 √(H/g) after arrival and the impulse the integral from arrival to 2 √(H/g) after it, both \
+            15 mm above the floor and judged by the same figures of the experiments' 2.5 and 97.5 percentiles.",
+    resolution: "particles high",
+    label: |n| n.to_string(),
+    resolutions: |size| match size {
+        Size::Tiny => &[10],
+        Size::Small => &[20],
+        Size::Full => &[20, 40, 80],
+    },
+    figure: FIGURE,
+    published: &[],
+    run: |bench, _, n| Ok(vec![one(bench, n)?]),
+};
+
+const FIGURE: &str = "peak beside the measured one";
+/// Depth of the water, m.
+const H: f64 = 0.3;
+const GRAVITY: f64 = 9.81;
+const DENSITY: f64 = 997.0;
+/// Where the sensors are, m.
+const WALL: f64 = 1.61;
+const HEIGHTS: [f64; 2] = [0.003, 0.015];
+/// s.
+const AVERAGED: f64 = 1e-3;
+/// Pressure that counts as water's arrival, ρgH.
+const ARRIVED: f64 = 0.1;
+/// Of the plateau after arrival, √(H/g).
+const PLATEAU: [f64; 2] = [0.5, 2.0];
+
+fn one(bench: &Bench, n: u32) -> Result<Record> {
+    let overrides = [spacing(H, n), "time.fps=2000".to_owned()];
+    let scene = shipped(CASE.name, &overrides)?;
+    let unit = (H / GRAVITY).sqrt();
+    let mut sensors = [Series::default(), Series::default()];
+    let run = flow(bench, &scene, |flow| {
+        let sampler = Sampler::new(&flow.position, 2, H / f64::from(n), None);
+        for (series, height) in sensors.iter_mut().zip(HEIGHTS) {
+            let p = sampler.scalar(DVec3::new(WALL, height, 0.0), &flow.pressure);
+            series.push(flow.time / unit, p.unwrap_or(0.0) / (DENSITY * GRAVITY * H));
+        }
+    })?;
+    let [low, middle] = sensors.map(|series| series.moving_average(AVERAGED / unit));
+    let measured = reference::lobovsky()?;
+    let [least, median, most] = &measured.band;
+    let peak = low.peak().zip(measured.sensors[0].peak());
+    let peak = peak.map(|((_, ours), (_, theirs))| 100.0 * (ours / theirs - 1.0));
+    let within = |of: fn(&Series) -> Option<f64>| match (of(least), of(most)) {
+        (Some(least), Some(most)) => Some(Bar::Within(least, most)),
+        _ => None,
+    };
+    let figures = vec![
+        Figure::new(FIGURE, peak, "%")
+            .bar(Bar::Within(-15.0, 15.0))
+            .best(-1.4, "TrixiParticles, 40 high (14.1 at 80, 7.7 at 400)"),
+        Figure::new("plateau", plateau(&middle), "ρgH").bar(within(plateau)),
+        Figure::new("impulse", impulse(&middle), "ρgH √(H/g)").bar(within(impulse)),
+        Figure::new("arrival", middle.arrival(ARRIVED), "√(H/g)"),
+        Figure::new(
+            "arrival in the experiment (median)",
+            median.arrival(ARRIVED),
+            "√(H/g)",
+        ),
+    ];
+    Ok(record(bench, CASE.name, &scene, n, run, figures))
+}
+
+fn plateau(pressure: &Series) -> Option<f64> {
+    let arrival = pressure.arrival(ARRIVED)?;
+    pressure.mean(arrival + PLATEAU[0], arrival + PLATEAU[1])
+}
+
+fn impulse(pressure: &Series) -> Option<f64> {
+    let arrival = pressure.arrival(ARRIVED)?;
+    pressure.integral(arrival, arrival + PLATEAU[1])
+}
