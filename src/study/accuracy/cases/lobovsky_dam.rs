@@ -48,7 +48,11 @@ const ARRIVED: f64 = 0.1;
 const PLATEAU: [f64; 2] = [0.5, 2.0];
 
 fn one(bench: &Bench, n: u32) -> Result<Record> {
-    let overrides = [spacing(H, n), "time.fps=2000".to_owned()];
+    let overrides = [
+        spacing(H, n),
+        "time.duration=1".to_owned(),
+        "time.fps=2000".to_owned(),
+    ];
     let scene = shipped(CASE.name, &overrides)?;
     let unit = (H / GRAVITY).sqrt();
     let mut sensors = [Series::default(), Series::default()];
