@@ -13,7 +13,7 @@ pub const CASE: Case = Case {
     name: "taylor_green_3d",
     title: "Taylor–Green vortices in 3D, Re 100",
     about: "Vortices in a periodic cube of side 2π (scene `taylor_green_3d`, t = 10). The figure is the largest \
-            difference of the mean kinetic energy from a spectral solution's, over that at the start, 1/8.",
+            difference of the mean kinetic energy from a reference solution's, over that at the start, 1/8.",
     resolution: "particles across",
     label: |n| format!("{n}³"),
     resolutions: |size| match size {
@@ -43,7 +43,7 @@ fn one(bench: &Bench, n: u32) -> Result<Record> {
         .points()
         .filter_map(|(t, e)| Some((energy.at(t)? - e).abs() / START));
     let worst = off.fold(f64::NAN, f64::max);
-    // A particle's energy falls by what viscosity takes, over half a second at each side of the peak.
+    // Over half a second at each side of the peak.
     let most = dissipation.peak().map(|(_, most)| most);
     let rate = dissipation
         .peak()
