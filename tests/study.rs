@@ -148,6 +148,21 @@ fn harada_has_a_page_with_the_same_figures_as_its_json() {
             assert!(voxels.as_f64().expect("voxels") >= leaves, "{grid}: {row}");
         }
     }
+    // Four dams with three grids each, and 256³ voxels of 16 bytes.
+    let fluids = json["table_3"].as_array().expect("rows");
+    assert_eq!(fluids.len(), 4);
+    assert!(
+        fluids
+            .iter()
+            .all(|row| row["ratio"].as_f64().is_some_and(|ratio| ratio > 0.0)),
+        "{fluids:?}"
+    );
+    let memory = json["table_3_memory"].as_array().expect("rows");
+    let uniform = memory
+        .iter()
+        .find(|row| row["256³ voxels"] == "`uniform`")
+        .expect("uniform");
+    assert_eq!(uniform["dam"], 268_435_456.0);
     // The paper's area, smaller by 16 along each side.
     let large = json["figure_8_memory"].as_array().expect("rows");
     let bytes = |name: &str| {
@@ -258,4 +273,64 @@ fn cases_are_chosen_by_name_and_resolution() {
         assert_eq!(output.status.code(), Some(2));
         assert!(String::from_utf8_lossy(&output.stderr).contains(told));
     }
+}
+
+#[test]
+fn rojas_has_a_page_with_the_same_figures_as_its_json() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (page, json) = run("rojas", folder.path());
+    check(folder.path(), &page, &json);
+    let rows = json["figure_10"].as_array().expect("rows");
+    // Three ways, 64 and 256 particles each.
+    let particles: Vec<f64> = rows.iter().filter_map(|row| row["particles"].as_f64()).collect();
+    assert_eq!(particles, [64.0, 256.0, 64.0, 256.0, 64.0, 256.0]);
+    for row in rows {
+        assert!(
+            row["real-time ratio"].as_f64().is_some_and(|ratio| ratio > 0.0),
+            "{row}"
+        );
+        assert_eq!(row["remark"], Value::Null, "{row}");
+    }
+    // The step follows the spacing.
+    let step = |row: usize| rows[row]["time step, µs"].as_f64().expect("a step");
+    assert!(
+        (1.7..2.3).contains(&(step(0) / step(1))),
+        "{} {}",
+        step(0),
+        step(1)
+    );
+}
+
+#[test]
+fn stability_has_a_page_with_the_same_figures_as_its_json() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (page, json) = run("stability", folder.path());
+    check(folder.path(), &page, &json);
+    // Linear theory tells how long steps of sound on a lattice and of a column of grains may be.
+    let rows = json["steps"].as_array().expect("rows");
+    let mut told = 0;
+    for row in rows {
+        let [stable, unstable, theory] = ["longest stable, µs", "shortest unstable, µs", "theory, µs"]
+            .map(|key| row[key].as_f64().unwrap_or(f64::NAN));
+        if theory.is_finite() {
+            told += 1;
+            assert!(stable < 1.25 * theory && unstable > 0.8 * theory, "{row}");
+        }
+        // What scenes take by themselves is stable.
+        assert!(
+            row["stable over own"].as_f64().is_some_and(|ratio| ratio >= 1.0),
+            "{row}"
+        );
+    }
+    assert_eq!((rows.len(), told), (8, 5));
+    // Every verdict that fails is listed.
+    let fails = |key: &str| {
+        let rows = json[key].as_array().expect("rows");
+        let verdicts = rows.iter().filter_map(|row| row["verdict"].as_str());
+        verdicts.filter(|verdict| verdict.starts_with("fails")).count()
+    };
+    assert_eq!(
+        json["failing"].as_array().map(Vec::len),
+        Some(fails("rests") + fails("hard"))
+    );
 }

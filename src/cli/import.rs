@@ -11,7 +11,8 @@ use crate::scene::import::import;
 /// Makes a scene of a SPlisHSPlasH scene file
 ///
 /// Reads FluidBlocks, FluidModels, RigidBodies (as obstacles that rest, or as the domain's box), Materials,
-/// gravity, times and camera, and lists every key that has no effect. Fluid becomes grains: there are no fluids yet.
+/// gravity, times and camera, and lists every key that has no effect. Fluid becomes a
+/// weakly compressible fluid (`wcsph`) of the same spacing and density.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -51,7 +52,7 @@ pub fn main(args: &Args) -> Result<()> {
     }
     let text = format!("{:#}\n", imported.json);
     eprintln!(
-        "imported {} grains and {} obstacles{}",
+        "imported {} particles and {} obstacles{}",
         count(imported.scene.particles.len() as u64),
         imported.scene.colliders.len(),
         args.out

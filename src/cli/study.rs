@@ -9,7 +9,7 @@ use crate::study::accuracy::Choice;
 use crate::study::accuracy::cases::CASES;
 use crate::study::{self, Settings, Size};
 
-/// Measures what papers measured, or errors against theory, and writes a page with others' figures beside ours
+/// Measures what papers measured, errors against theory, or what solvers endure, and writes a page with the figures
 ///
 /// Writes one Markdown page with its pictures, and one JSON file with the same figures; says where the page is.
 #[derive(clap::Args)]
@@ -38,6 +38,7 @@ const EXAMPLES: &str = "\
 Examples:
   sliceflow study harada
   sliceflow study green --size full --adapter 0
+  sliceflow study stability
   sliceflow study harada --out out/today --force
   sliceflow study accuracy
   sliceflow study accuracy --case collision --resolution 50,200,1000";
@@ -50,6 +51,10 @@ enum Subject {
     Green,
     /// Errors against theory and experiment, beside what they cost
     Accuracy,
+    /// Rojas 2013: real-time ratio of a dam break
+    Rojas,
+    /// Longest stable steps, long rests and hard cases of every solver
+    Stability,
 }
 
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
@@ -77,6 +82,8 @@ pub fn main(args: &Args) -> Result<()> {
         Subject::Harada => "harada",
         Subject::Green => "green",
         Subject::Accuracy => "accuracy",
+        Subject::Rojas => "rojas",
+        Subject::Stability => "stability",
     };
     if choice != Choice::default() && name != "accuracy" {
         return Err(Error::usage(
@@ -101,6 +108,8 @@ pub fn main(args: &Args) -> Result<()> {
         Subject::Harada => study::harada(&settings),
         Subject::Green => study::green(&settings),
         Subject::Accuracy => study::accuracy(&settings, &choice),
+        Subject::Rojas => study::rojas(&settings),
+        Subject::Stability => study::stability(&settings),
     }?;
     stdout::print(&format!("{}\n", page.display()))
 }

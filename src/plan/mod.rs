@@ -124,6 +124,13 @@ impl Plan {
             columns.push(colored);
         }
 
+        let several = scene.fluid().is_some_and(|fluid| fluid.materials.len() > 1);
+        if !several && columns.iter().any(|column| column.name == "material") {
+            return Err(Error::usage(
+                "all particles are of one material",
+                "leave the column `material` out, or describe several fluids in fluid.materials",
+            ));
+        }
         let obstacles = Obstacles::new(scene);
         let search = neighbors::plan(scene, grid, &mut variant);
         let solver = match &scene.matter {
@@ -461,5 +468,5 @@ fn statistics(scene: &Scene) -> (Vec<BufferPlan>, Vec<PassPlan>) {
 
 /// Whether a column has to be read from a buffer of its own name.
 pub fn has_buffer(column: &Column) -> bool {
-    column.source == Source::Measured || matches!(column.name, "position" | "velocity" | "id")
+    column.source == Source::Measured || matches!(column.name, "position" | "velocity" | "id" | "material")
 }

@@ -31,9 +31,18 @@ pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
     let flat = known.frame.dimensions == Dimensions::Two;
     let names = column::COLUMNS.iter().map(|column| column.name);
     let names = names.filter(|name| !flat || !["z", "velocity_z"].contains(name));
+    let materials = known.file.fluid.as_ref().map_or(0, |fluid| fluid.materials.len());
+    let names = names.filter(|name| materials > 1 || *name != "material");
     let Some(column) = column::find(&color.by).filter(|column| names.clone().any(|name| name == column.name))
     else {
         let (what, mend) = match column::find(&color.by) {
+            Some(_) if color.by == "material" => (
+                "all particles are of one material".to_owned(),
+                format!(
+                    "describe several fluids in fluid.materials, or take one of {}",
+                    list(names)
+                ),
+            ),
             Some(_) => (
                 format!("a 2D scene has no \"{}\"", color.by),
                 format!("one of {}", list(names)),
@@ -89,6 +98,10 @@ fn default_range(column: &str, known: &Known) -> [f64; 2] {
         "z" => extent(2),
         "id" => [0.0, f64::from(known.capacity.max(2) - 1)],
         "contacts" if file.fluid.is_some() => [0.0, if dimensions == 2 { 30.0 } else { 80.0 }],
+        "material" => {
+            let materials = file.fluid.as_ref().map_or(0, |fluid| fluid.materials.len());
+            [0.0, materials.max(2) as f64 - 1.0]
+        }
         // Grains of one size touch at most six others in a plane, twelve in space.
         "contacts" => [0.0, if dimensions == 2 { 6.0 } else { 12.0 }],
         "density" if file.fluid.is_some() => [0.97 * file.density(), 1.03 * file.density()],

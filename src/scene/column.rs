@@ -79,6 +79,12 @@ pub const COLUMNS: &[Column] = &[
         Source::Measured,
     ),
     column(
+        "material",
+        "",
+        "which of several fluids the particle belongs to, in the order of fluid.materials",
+        Source::State,
+    ),
+    column(
         "slice",
         "",
         "voxel coordinate along the slicing axis",

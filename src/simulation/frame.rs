@@ -148,7 +148,10 @@ pub(super) fn sources(columns: &[Column]) -> Vec<&'static str> {
         return names;
     }
     names.extend(["id", "position", "velocity"]);
-    for column in columns.iter().filter(|c| c.source == Source::Measured) {
+    for column in columns
+        .iter()
+        .filter(|c| c.source == Source::Measured || c.name == "material")
+    {
         debug_assert!(has_buffer(column));
         names.push(column.name);
     }
@@ -212,7 +215,7 @@ pub(super) fn columns(scene: &Scene, plan: &Plan, raw: &BTreeMap<&str, &[u8]>) -
                 let slice = |&s: &usize| plan.grid.slice_of(vector(&position, s));
                 Values::Unsigned(slot_of.iter().map(slice).collect())
             }
-            "contacts" => {
+            "contacts" | "material" => {
                 let values: Vec<u32> = bytemuck::pod_collect_to_vec(raw[column.name]);
                 Values::Unsigned(slot_of.iter().map(|&s| values[s]).collect())
             }

@@ -184,7 +184,7 @@ pub fn first_line(error: &crate::error::Error) -> String {
 }
 
 /// A frame's particles in local coordinates.
-fn particles(origin: DVec3, frame: &Frame) -> Particles {
+pub fn particles(origin: DVec3, frame: &Frame) -> Particles {
     let mut particles = Particles::default();
     for column in &frame.columns {
         match &column.values {

@@ -1,4 +1,5 @@
-//! Studies, on one page each: what the papers measured, measured again; errors against theory and experiment.
+//! Studies, on one page each: what the papers measured, measured again; errors against theory and experiment; what
+//! solvers endure.
 
 pub mod accuracy;
 mod bench;
@@ -7,13 +8,17 @@ mod green;
 mod harada;
 mod measure;
 mod page;
+mod rojas;
 mod scenes;
+mod stability;
 
 use std::path::PathBuf;
 
 pub use accuracy::accuracy;
 pub use green::green;
 pub use harada::harada;
+pub use rojas::rojas;
+pub use stability::stability;
 
 use crate::gpu::AdapterChoice;
 

@@ -51,8 +51,6 @@ pub fn convert(
             json!({ "min": coordinates(min, axes), "max": coordinates(max, axes), "walls": "open" })
         }
     };
-    let (low, high) = container.unwrap_or(bounds);
-    let down = peer.gravity.normalize_or_zero().abs();
     let mut scene = json!({
         "name": "",
         "description": "",
@@ -60,7 +58,7 @@ pub fn convert(
         "dimensions": axes,
         "domain": domain,
         "gravity": coordinates(peer.gravity, axes),
-        "grains": fluid::substance(peer, down.dot(high - low), ignored),
+        "fluid": fluid::substance(peer, ignored),
         "bodies": bodies,
         "colliders": colliders,
     });

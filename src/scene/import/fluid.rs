@@ -1,4 +1,4 @@
-//! What the peer's fluid becomes: grains, since Sliceflow has no fluids. Everything that depends on it is here.
+//! What the peer's fluid becomes: a weakly compressible fluid of the same particles.
 
 use glam::DVec3;
 use serde_json::{Value, json};
@@ -12,53 +12,55 @@ use crate::scene::mesh::Mesh;
 use crate::scene::{Dimensions, particle_file};
 
 /// Plain words for the user.
-pub const NOTE: &str =
-    "fluid particles become grains, which pile up instead of flowing: Sliceflow has no fluids yet";
+pub const NOTE: &str = "fluid becomes a weakly compressible fluid of the same spacing and density, with the viscosity of \
+                        water and some artificial viscosity: coefficients of the peer's viscosity methods have no \
+                        counterpart";
 
-/// Speed after over speed before a collision.
-const RESTITUTION: f64 = 0.5;
-/// How far grains at the fastest speed to expect press into a wall, as a share of their radius.
-const OVERLAP: f64 = 0.15;
-/// m/s, where nothing else gives a speed.
-const SLOWEST: f64 = 1.0;
+/// Of water, Pa·s.
+const VISCOSITY: f64 = 1e-3;
+/// Monaghan's α, which keeps impacts stable.
+const ARTIFICIAL_VISCOSITY: f64 = 0.05;
+/// kg/m³, where the peer's file gives none.
+const DENSITY: f64 = 1000.0;
 
-/// The scene's `grains`, for a domain of this height along gravity.
-pub fn substance(peer: &Peer, height: f64, ignored: &mut Vec<Ignored>) -> Value {
-    for (path, _) in &peer.time_step {
-        ignored.push(Ignored::new(path, "a step of grains follows from their contacts"));
-    }
-    let material = peer.material();
-    for other in &peer.materials {
-        if material.is_none_or(|material| material.id != other.id) {
-            ignored.push(Ignored::new(
-                &other.path,
-                "all grains are of the first fluid's material",
-            ));
+/// Ids of the materials that the fluid is of, each once.
+fn used(peer: &Peer) -> Vec<&str> {
+    let blocks = peer.blocks.iter().map(|block| block.material.as_str());
+    let mut ids = Vec::new();
+    for id in blocks.chain(peer.models.iter().map(|model| model.material.as_str())) {
+        if !ids.contains(&id) {
+            ids.push(id);
         }
     }
-    let density = material.map_or(1000.0, |material| material.density);
-    let speeds = peer
-        .blocks
-        .iter()
-        .map(|b| b.velocity)
-        .chain(peer.models.iter().map(|m| m.velocity));
-    let fall = (2.0 * peer.gravity.length() * height).sqrt();
-    let speed = speeds.map(DVec3::length).fold(fall, f64::max).max(SLOWEST);
-    let mass = density
-        * match peer.dimensions {
-            2 => std::f64::consts::PI * peer.radius.powi(2),
-            _ => 4.0 / 3.0 * std::f64::consts::PI * peer.radius.powi(3),
-        };
-    // m v² = k δ²
-    let spring = mass * (speed / (OVERLAP * peer.radius)).powi(2);
-    // Three digits say what is known.
-    let digits = 10f64.powf(spring.log10().floor() - 2.0);
-    json!({
-        "radius": peer.radius,
-        "density": density,
-        "spring": (spring / digits).round() * digits,
-        "restitution": RESTITUTION,
-    })
+    ids
+}
+
+/// The scene's `fluid`.
+pub fn substance(peer: &Peer, ignored: &mut Vec<Ignored>) -> Value {
+    for (path, _) in &peer.time_step {
+        ignored.push(Ignored::new(path, "the step follows from the speed of sound"));
+    }
+    let used = used(peer);
+    for material in &peer.materials {
+        if !used.contains(&material.id.as_str()) {
+            ignored.push(Ignored::new(&material.path, "no fluid is of it"));
+        }
+    }
+    let density = |id: &str| {
+        let found = peer.materials.iter().rfind(|material| material.id == id);
+        found.map_or(DENSITY, |material| material.density)
+    };
+    let mut fluid = json!({
+        "spacing": 2.0 * peer.radius,
+        "density": used.first().map_or(DENSITY, |id| density(id)),
+        "viscosity": VISCOSITY,
+        "artificial_viscosity": ARTIFICIAL_VISCOSITY,
+    });
+    if used.len() > 1 {
+        let material = |id: &&str| json!({ "name": id, "density": density(id), "viscosity": VISCOSITY });
+        fluid["materials"] = used.iter().map(material).collect();
+    }
+    fluid
 }
 
 /// A block's body: the peer sets its particles a spacing inside the corners, `round(size / spacing) - 1` along each
@@ -82,7 +84,7 @@ pub fn block(peer: &Peer, block: &Block, ignored: &mut Vec<Ignored>) -> Option<V
     // A little more, so that rounding takes no layer away.
     let max = min + (steps + 1e-6) * spacing;
     let shape = json!({ "kind": "box", "min": coordinates(min, axes), "max": coordinates(max, axes) });
-    Some(body(shape, block.velocity, axes))
+    Some(body(peer, shape, &block.material, block.velocity))
 }
 
 /// Where a model's particles or its mesh are.
@@ -128,13 +130,16 @@ pub fn model(peer: &Peer, model: &Model, files: &Files, ignored: &mut Vec<Ignore
         "file": files.name(&model.file)?,
         "placement": placement(&model.transform, peer.dimensions),
     });
-    Ok(Some(body(shape, model.velocity, peer.dimensions)))
+    Ok(Some(body(peer, shape, &model.material, model.velocity)))
 }
 
-fn body(shape: Value, velocity: DVec3, axes: usize) -> Value {
+fn body(peer: &Peer, shape: Value, material: &str, velocity: DVec3) -> Value {
     let mut body = json!({ "shape": shape });
     if velocity != DVec3::ZERO {
-        body["velocity"] = coordinates(velocity, axes);
+        body["velocity"] = coordinates(velocity, peer.dimensions);
+    }
+    if used(peer).len() > 1 {
+        body["material"] = material.into();
     }
     body
 }

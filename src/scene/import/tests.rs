@@ -96,7 +96,14 @@ fn a_cubic_metre_gives_as_many_particles_as_there() {
     assert_eq!(scene.file.time.duration, 2.0);
     assert_eq!(scene.file.render.camera.eye, Some([0.0, 2.0, 8.0]));
     assert_eq!(scene.file.render.color.range, Some([0.0, 4.0]));
-    assert!(imported.notes.iter().any(|note| note.contains("become grains")));
+    let fluid = scene.fluid().unwrap();
+    assert_eq!((fluid.spacing, fluid.materials.len()), (0.05, 1));
+    assert!(
+        imported
+            .notes
+            .iter()
+            .any(|note| note.contains("weakly compressible"))
+    );
 }
 
 #[test]
@@ -175,6 +182,34 @@ fn models_are_filled_from_meshes_and_particle_files() {
     std::fs::write(&path, open.to_string()).unwrap();
     let scene = import(&path, Some(folder.path())).unwrap().scene;
     assert_eq!(scene.particles.len(), 20 * 20 * 20, "the open domain holds it");
+}
+
+#[test]
+fn several_fluids_keep_their_materials() {
+    let mut scene = dam();
+    scene["Materials"].as_array_mut().unwrap().extend([
+        json!({ "id": "Oil", "density0": 800 }),
+        json!({ "id": "Absent", "density0": 1 }),
+    ]);
+    let mut oil = scene["FluidBlocks"][0].clone();
+    oil["id"] = "Oil".into();
+    oil["translation"] = json!([0.5, 0.05, 0]);
+    scene["FluidBlocks"].as_array_mut().unwrap().push(oil);
+    let (folder, path) = folder(&scene);
+    let imported = import(&path, Some(folder.path())).unwrap();
+    let scene = &imported.scene;
+    let densities: Vec<f64> = scene
+        .fluid()
+        .unwrap()
+        .materials
+        .iter()
+        .map(|m| m.density)
+        .collect();
+    assert_eq!(densities, [900.0, 800.0]);
+    let each = 19 * 19 * 19;
+    assert!(scene.particles.material[..each].iter().all(|&m| m == 0));
+    assert!(scene.particles.material[each..2 * each].iter().all(|&m| m == 1));
+    assert!(ignored(&imported).contains(&"Materials[2]".to_owned()));
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod construction;
 mod drops;
+mod fluids;
 mod large;
 mod memory;
 mod pictures;
@@ -65,6 +66,10 @@ struct Scale {
     area_divisor: u32,
     /// Steps of each policy of sizing the pool.
     resizing_steps: u32,
+    /// Voxels along a side of Table 3's tank, a multiple of 32; the paper has 256.
+    tank: u32,
+    /// Steps that its dams fall before they are measured.
+    tank_steps: u32,
 }
 
 fn scale(size: Size) -> Scale {
@@ -79,6 +84,8 @@ fn scale(size: Size) -> Scale {
             large_divisor: 16,
             area_divisor: 16,
             resizing_steps: 20,
+            tank: 32,
+            tank_steps: 10,
         },
         Size::Small => Scale {
             cells: 48,
@@ -90,6 +97,8 @@ fn scale(size: Size) -> Scale {
             large_divisor: 5,
             area_divisor: 1,
             resizing_steps: 400,
+            tank: 64,
+            tank_steps: 300,
         },
         Size::Full => Scale {
             cells: 128,
@@ -104,6 +113,8 @@ fn scale(size: Size) -> Scale {
             large_divisor: 1,
             area_divisor: 1,
             resizing_steps: 6000,
+            tank: 256,
+            tank_steps: 4000,
         },
     }
 }
@@ -131,7 +142,7 @@ pub fn harada(settings: &Settings) -> Result<PathBuf> {
     let drops = drops::run(&bench, &scale)?;
     drops::table_1(&mut page, &drops);
     let times = times::table_2(&mut page, &bench, &scale, &drops)?;
-    times::table_3(&mut page);
+    fluids::table_3(&mut page, &bench, &scale)?;
     construction::figure_5(&mut page, &scale, &drops, &times)?;
     drops::figure_6(&mut page, &drops[1])?;
     pictures::figure_2(&mut page, &bench, &drops[1])?;

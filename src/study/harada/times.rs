@@ -1,4 +1,4 @@
-//! Tables 2 and 3: construction and whole steps, fixed grid against sliced grid and all others.
+//! Table 2: construction and whole steps, fixed grid against sliced grid and all others.
 
 use super::drops::Drop;
 use super::{PAPER, Scale};
@@ -11,8 +11,8 @@ use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
 
 /// The paper's fixed grid and its sliced grid.
-const FIXED: &str = "uniform-pool";
-const SLICED: &str = "sliced-pool";
+pub const FIXED: &str = "uniform-pool";
+pub const SLICED: &str = "sliced-pool";
 
 /// Outcomes of every grid for each drop, with the grid's name.
 pub type AllTimes = Vec<Vec<(String, Outcome)>>;
@@ -199,48 +199,4 @@ fn every_grid(drops: &[Drop], times: &AllTimes) -> Table {
         table.row(row);
     }
     table
-}
-
-/// Fluids are not there yet; what the table says of memory is arithmetic.
-pub fn table_3(page: &mut Page) {
-    page.heading("Table 3: fluids");
-    page.paragraph(
-        "Sliceflow simulates grains only, so the steps of the paper's fluids have nothing beside them. Its memory: \
-         256³ voxels with four indices of four bytes each are 256 MiB as a uniform pool; with the sliced grid the paper \
-         needed at most 15 MB for 1,048,576 particles.",
-    );
-    let mut table = Table::new([
-        "particles",
-        "paper, fixed, ms",
-        "paper, sliced, ms",
-        "ratio",
-        "ours",
-    ]);
-    for (particles, fixed, sliced) in [
-        (65_536, 60.9, 53.1),
-        (262_144, 280.5, 231.3),
-        (589_824, 685.9, 567.9),
-        (1_048_576, 1160.9, 1070.3),
-    ] {
-        table.row([
-            Cell::count(particles),
-            Cell::number(fixed),
-            Cell::number(sliced),
-            Cell::number(sliced / fixed),
-            Cell::text("not run: no fluids"),
-        ]);
-    }
-    page.table("table_3", &table);
-    let mut table = Table::new(["256³ voxels", "paper", "computed"]);
-    table.row([
-        Cell::text("uniform pool"),
-        Cell::text("256 MB"),
-        Cell::bytes(256 * 256 * 256 * 16),
-    ]);
-    table.row([
-        Cell::text("sliced pool, 1,048,576 particles"),
-        Cell::text("at most 15 MB"),
-        Cell::Nothing,
-    ]);
-    page.table("table_3_memory", &table);
 }

@@ -1,0 +1,146 @@
+//! Hard cases: what lies in one place, what is alone, what is in perfect order, and what comes far too fast.
+
+use serde_json::json;
+
+use super::methods::{EXPECTED, FLUIDS, GRAINS, Method, SPACING, block};
+use super::trial::{lost, run};
+use super::{Failures, Scale};
+use crate::error::Result;
+use crate::scene::Scene;
+use crate::scene::model::Integrator;
+use crate::study::bench::{Bench, progress};
+use crate::study::page::Cell;
+use crate::study::page::{Page, Table, shown};
+
+/// Particles that began in one place have come apart by this share of the spacing.
+const APART: f64 = 0.2;
+/// A lattice at rest stays slower than this share of the expected speed.
+const STILL: f64 = 1e-3;
+/// Largest error of a free fall, as a share of its way.
+const FALL: f64 = 1e-4;
+/// Energy that an impact may gain.
+const GAIN: f64 = 0.02;
+
+type Outcome = std::result::Result<(), String>;
+type Case = fn(&Bench, Method, u32) -> Result<Outcome>;
+
+const CASES: [(&str, Case); 4] = [
+    ("coincident particles", coincident),
+    ("one isolated particle", isolated),
+    ("a perfect lattice", lattice),
+    ("impact at ten times the expected speed", impact),
+];
+
+pub fn cases(page: &mut Page, bench: &Bench, scale: &Scale, failures: &mut Failures) -> Result<()> {
+    page.heading("Hard cases");
+    page.paragraph(format!(
+        "{} steps of the scene's own length each. *Coincident*: one of the particles of a block of 8 × 8 begins where \
+         another is; it holds where they come apart by {} spacings. *Isolated*: a single particle falls; its way is off \
+         by at most {} of itself from what the integrator gives exactly. *Lattice*: no gravity, nothing to do; at most {} of \
+         the expected speed. *Impact*: a block of 8 × 8 hits the floor at ten times the speed that the speed of \
+         sound or the spring is made for; no particle is lost and energy grows by at most {}.",
+        scale.short,
+        shown(APART),
+        shown(FALL),
+        shown(STILL),
+        shown(GAIN),
+    ));
+    let mut table = Table::new(["solver", "case", "verdict"]);
+    for method in FLUIDS.into_iter().chain(GRAINS) {
+        progress(&format!("stability: hard cases of {}", method.name()));
+        for (name, case) in CASES {
+            let outcome = case(bench, method, scale.short)?;
+            table.row([
+                Cell::text(method.name()),
+                Cell::text(name),
+                failures.verdict(&format!("{}, {name}", method.name()), &outcome),
+            ]);
+        }
+    }
+    page.table("hard", &table);
+    Ok(())
+}
+
+fn coincident(bench: &Bench, method: Method, steps: u32) -> Result<Outcome> {
+    let mut scene = method.scene(block([0.4, 0.0], 8, 8), |file| expect(file, method))?;
+    scene.particles.position[27] = scene.particles.position[28];
+    Ok(run(bench, &scene, steps, 1).and_then(|trial| {
+        let apart = trial.last.position[27].distance(trial.last.position[28]);
+        let apart = f64::from(apart) / SPACING;
+        match apart > APART {
+            true => Ok(()),
+            false => Err(format!("they are {} spacings apart", shown(apart))),
+        }
+    }))
+}
+
+fn isolated(bench: &Bench, method: Method, steps: u32) -> Result<Outcome> {
+    // It has room to fall.
+    let mut scene = method.scene(block([0.5, 0.5], 1, 1), |file| {
+        expect(file, method);
+        file["domain"]["min"] = json!([0, -1000]);
+    })?;
+    scene.particles.velocity[0] = glam::Vec3::ZERO;
+    Ok(run(bench, &scene, steps, 1).and_then(|trial| {
+        let time = scene.time.step * f64::from(steps);
+        let gravity = f64::from(scene.gravity.length());
+        // Symplectic Euler falls by half a step more.
+        let ahead = match scene.time.integrator {
+            Integrator::SymplecticEuler => scene.time.step,
+            Integrator::VelocityVerlet => 0.0,
+        };
+        let expected = gravity * time * (time + ahead) / 2.0;
+        let way = f64::from(scene.particles.position[0].y - trial.last.position[0].y);
+        let off = (way - expected).abs() / expected;
+        match off < FALL {
+            true => Ok(()),
+            false => Err(format!("its way is off by {} of itself", shown(off))),
+        }
+    }))
+}
+
+fn lattice(bench: &Bench, method: Method, steps: u32) -> Result<Outcome> {
+    let scene = method.scene(block([0.0; 2], 20, 20), |file| {
+        expect(file, method);
+        file["domain"]["max"] = json!([20.0 * SPACING, 20.0 * SPACING]);
+        file["gravity"] = json!([0, 0]);
+        if method.is_fluid() {
+            file["domain"]["walls"] = "periodic".into();
+        }
+    })?;
+    Ok(run(bench, &scene, steps, 1).and_then(|trial| {
+        let fastest = trial.moments.last().map_or(f64::NAN, |m| m.figures.max_speed) / EXPECTED;
+        match fastest < STILL {
+            true => Ok(()),
+            false => Err(format!("it moves at {} of the expected speed", shown(fastest))),
+        }
+    }))
+}
+
+fn impact(bench: &Bench, method: Method, steps: u32) -> Result<Outcome> {
+    let mut body = block([0.4, SPACING], 8, 8);
+    body["velocity"] = json!([0, -10.0 * EXPECTED]);
+    let scene: Scene = method.scene(body, |file| expect(file, method))?;
+    // Frames often enough to see a gain.
+    Ok(run(bench, &scene, steps.div_ceil(10), 10).and_then(|trial| {
+        let first = trial.moments[0].energy();
+        let most = trial
+            .moments
+            .iter()
+            .map(|m| m.energy() / first)
+            .fold(0.0, f64::max);
+        let lost = lost(&scene, &trial.last);
+        match (lost, most > 1.0 + GAIN) {
+            (0, false) => Ok(()),
+            (0, true) => Err(format!("energy becomes {} times the first", shown(most))),
+            _ => Err(format!("{lost} particles are lost")),
+        }
+    }))
+}
+
+/// The speed that a fluid's sound follows from; grains have theirs in the spring.
+fn expect(file: &mut serde_json::Value, method: Method) {
+    if method.is_fluid() {
+        file["fluid"]["max_speed"] = EXPECTED.into();
+    }
+}

@@ -1,0 +1,86 @@
+//! `sliceflow study stability`: how long steps may be, and what long runs and hard cases do to each solver.
+
+mod endurance;
+mod hard;
+mod methods;
+mod steps;
+mod theory;
+mod trial;
+
+use std::path::PathBuf;
+
+use super::bench::Bench;
+use super::measure::Effort;
+use super::page::{Cell, Page};
+use super::{Settings, Size};
+use crate::error::Result;
+
+struct Scale {
+    /// Halvings of the interval in which the longest stable step lies.
+    halvings: u32,
+    /// Simulated seconds of a dam that must not gain energy.
+    dam_seconds: f64,
+    /// Steps of still water and of a resting pile.
+    long: u32,
+    /// Steps of each hard case.
+    short: u32,
+}
+
+fn scale(size: Size) -> Scale {
+    let (halvings, dam_seconds, long, short) = match size {
+        Size::Tiny => (3, 0.03, 100, 100),
+        Size::Small => (7, 0.4, 2000, 500),
+        Size::Full => (10, 1.0, 10_000, 2000),
+    };
+    Scale {
+        halvings,
+        dam_seconds,
+        long,
+        short,
+    }
+}
+
+/// What did not meet its bound, in the order in which it was found.
+#[derive(Default)]
+struct Failures(Vec<String>);
+
+impl Failures {
+    /// A cell that says how it went; what failed is kept.
+    fn verdict(&mut self, name: &str, outcome: &std::result::Result<(), String>) -> Cell {
+        match outcome {
+            Ok(()) => Cell::text("holds"),
+            Err(why) => {
+                self.0.push(format!("{name}: {why}"));
+                Cell::text(format!("fails: {why}"))
+            }
+        }
+    }
+}
+
+pub fn stability(settings: &Settings) -> Result<PathBuf> {
+    let title = "What each solver endures";
+    let mut page = Page::create(&settings.folder, "stability", title, settings.force)?;
+    let bench = Bench::open(&settings.adapter)?;
+    let scale = scale(settings.size);
+    page.paragraph(
+        "Small 2D scenes: the longest stable time step beside theory, long rests, and hard cases. Everything that does \
+         not hold its bound is listed at the end. Fluids have steps of fixed length, so an adaptive one is not tried.",
+    );
+    let effort = Effort { rounds: 1, steps: 1 };
+    bench.describe(&mut page, effort);
+    let mut failures = Failures::default();
+    steps::longest(&mut page, &bench, &scale)?;
+    endurance::rests(&mut page, &bench, &scale, &mut failures)?;
+    hard::cases(&mut page, &bench, &scale, &mut failures)?;
+    page.heading("What fails");
+    match &failures.0[..] {
+        [] => page.paragraph("Nothing that was tried here."),
+        failed => {
+            for one in failed {
+                page.paragraph(format!("- {one}"));
+            }
+        }
+    }
+    page.value("failing", failures.0);
+    page.finish()
+}

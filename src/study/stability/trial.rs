@@ -1,0 +1,73 @@
+//! A short run and what is seen of it.
+
+use crate::output::columns_named;
+use crate::plan::Wanted;
+use crate::scene::{Particles, Scene};
+use crate::simulation::frame::{Frame, Statistics};
+use crate::study::bench::{Bench, first_line, particles};
+use crate::study::measure::with_steps_per_frame;
+
+/// Figures of a frame; energies in joules, speeds in m/s.
+pub struct Moment {
+    pub time: f64,
+    pub figures: Statistics,
+}
+
+impl Moment {
+    pub fn energy(&self) -> f64 {
+        self.figures.kinetic_energy + self.figures.potential_energy
+    }
+}
+
+/// A run that came to its end.
+pub struct Trial {
+    pub moments: Vec<Moment>,
+    /// At the end, in order of id.
+    pub last: Particles,
+}
+
+/// Runs `frames` intervals of so many steps; why not, where the simulation gave up.
+pub fn run(bench: &Bench, scene: &Scene, steps: u32, frames: u32) -> Result<Trial, String> {
+    let mut scene = with_steps_per_frame(scene, steps);
+    scene.time.frames = frames + 1;
+    let told = |error: crate::error::Error| first_line(&error);
+    let wanted = Wanted {
+        statistics: true,
+        columns: columns_named(["position", "velocity"]).map_err(told)?,
+        ..Default::default()
+    };
+    let mut simulation = bench.simulation(&scene, &wanted).map_err(told)?;
+    let mut trial = Trial {
+        moments: Vec::new(),
+        last: Particles::default(),
+    };
+    let mut take = |frame: Frame| {
+        trial.last = particles(scene.origin, &frame);
+        if let Some(figures) = frame.statistics {
+            trial.moments.push(Moment {
+                time: frame.time,
+                figures,
+            });
+        }
+    };
+    for _ in 0..scene.time.frames {
+        if let Some(frame) = simulation.next_frame().map_err(told)? {
+            take(frame);
+        }
+    }
+    while let Some(frame) = simulation.finish_frame().map_err(told)? {
+        take(frame);
+    }
+    if trial.moments.iter().any(|m| !m.energy().is_finite()) {
+        return Err("energy is not finite".into());
+    }
+    Ok(trial)
+}
+
+/// How many particles lie farther than a spacing beyond the domain.
+pub fn lost(scene: &Scene, particles: &Particles) -> usize {
+    let room = 2.0 * scene.radius() as f32;
+    let inside =
+        |p: &&glam::Vec3| p.cmpge(scene.domain.min - room).all() && p.cmple(scene.domain.max + room).all();
+    particles.len() - particles.position.iter().filter(inside).count()
+}
