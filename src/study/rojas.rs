@@ -107,6 +107,7 @@ fn dam(across: u32, way: &Way, scale: &Scale) -> Result<Scene> {
         "domain": { "min": [0, 0], "max": [1, 1], "walls": way.walls },
         "fluid": (way.fluid)(),
         "bodies": [{ "shape": { "kind": "box", "min": [0, 0], "max": [0.5, 0.5] } }],
+        "neighbors": { "skin": 0 },
         "time": { "duration": f64::from(scale.intervals) * scale.seconds, "fps": 1.0 / scale.seconds },
         "render": { "splat": "disc", "size": [640, 640], "color": { "by": "speed" } }
     });
