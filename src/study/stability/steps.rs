@@ -32,8 +32,11 @@ struct Case {
     usual: f64,
     /// Steps of a run with a step of so many seconds.
     steps: Box<dyn Fn(f64) -> u32>,
-    is_stable: Box<dyn Fn(&Scene, &Trial) -> bool>,
+    is_stable: Box<Judge>,
 }
+
+/// Whether what became of a scene is stable.
+type Judge = dyn Fn(&Scene, &Trial) -> bool;
 
 /// The longest stable step and the shortest unstable one that were tried; `None` where the interval's end was neither.
 struct Found {
