@@ -51,10 +51,10 @@ pub fn sound_limit(fluid: &Fluid) -> f64 {
     2.0 / (fluid.sound_speed * fastest.sqrt())
 }
 
-/// Of a column of grains on the floor, seconds: its fastest mode has ω = 2 √(k/m) cos(π / (4 n + 2)), and damping
+/// Of a column of grains on the floor, seconds: its fastest mode has ω = 2 √(k/m) cos(π / (2 n + 1)), and damping
 /// ζ = η ω / (2 k). Symplectic Euler with the damping of the velocity before is stable up to ω Δt = 2 (√(1 + ζ²) − ζ).
 pub fn column_limit(spring: f64, damping: f64, mass: f64, grains: u32) -> f64 {
-    let omega = 2.0 * (spring / mass).sqrt() * (PI / f64::from(4 * grains + 2)).cos();
+    let omega = 2.0 * (spring / mass).sqrt() * (PI / f64::from(2 * grains + 1)).cos();
     let zeta = damping * omega / (2.0 * spring);
     2.0 * ((1.0 + zeta * zeta).sqrt() - zeta) / omega
 }
@@ -65,8 +65,10 @@ mod tests {
 
     #[test]
     fn undamped_grains_take_two_over_omega() {
-        // One grain on the floor: ω² = k/m.
-        assert!((column_limit(4.0, 0.0, 1.0, 1) - 2.0 / (2.0 * 2.0 * (PI / 6.0).cos())).abs() < 1e-12);
+        // One grain on the floor: ω² = k/m. Of two, ω² = (3 + √5)/2 k/m is the greater one.
+        assert!((column_limit(4.0, 0.0, 1.0, 1) - 1.0).abs() < 1e-12);
+        let two = ((3.0 + 5f64.sqrt()) / 2.0).sqrt();
+        assert!((column_limit(1.0, 0.0, 1.0, 2) - 2.0 / two).abs() < 1e-12);
         let long = column_limit(1.0, 0.0, 1.0, 10_000);
         assert!((long - 1.0).abs() < 1e-6, "{long}");
         assert!(column_limit(1.0, 0.1, 1.0, 8) < column_limit(1.0, 0.0, 1.0, 8));
