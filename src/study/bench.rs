@@ -48,8 +48,8 @@ impl Bench {
         )
     }
 
-    /// Says on the page what measured, and how.
-    pub fn describe(&self, page: &mut Page, effort: Effort) {
+    /// Says on the page what measured.
+    pub fn environment(&self, page: &mut Page) {
         let identity = &self.identity;
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let mut table = Table::new(["measured on", ""]);
@@ -66,6 +66,11 @@ impl Bench {
             crate::output::text::bytes(self.limits.binding),
         );
         page.table("environment", &table);
+    }
+
+    /// Says on the page what measured, and how.
+    pub fn describe(&self, page: &mut Page, effort: Effort) {
+        self.environment(page);
         let clock = if self.software {
             "A pass is timed by the processor's clock, submitted alone and waited for, since a software adapter's own \
              stamps do not wait for a pass's threads; that adds some hundredths of a millisecond to each pass."

@@ -10,7 +10,6 @@ mod trial;
 use std::path::PathBuf;
 
 use super::bench::Bench;
-use super::measure::Effort;
 use super::page::{Cell, Page};
 use super::{Settings, Size};
 use crate::error::Result;
@@ -66,8 +65,7 @@ pub fn stability(settings: &Settings) -> Result<PathBuf> {
         "Small 2D scenes: the longest stable time step beside theory, long rests, and hard cases. Everything that does \
          not hold its bound is listed at the end. Fluids have steps of fixed length, so an adaptive one is not tried.",
     );
-    let effort = Effort { rounds: 1, steps: 1 };
-    bench.describe(&mut page, effort);
+    bench.environment(&mut page);
     let mut failures = Failures::default();
     steps::longest(&mut page, &bench, &scale)?;
     endurance::rests(&mut page, &bench, &scale, &mut failures)?;

@@ -179,9 +179,7 @@ fn dam(method: Method, seconds: f64) -> Result<Case> {
 }
 
 fn column(method: Method) -> Result<Case> {
-    let scene = method.scene(block([0.0; 2], 1, COLUMN), |file| {
-        file["domain"]["max"] = serde_json::json!([SPACING, 1]);
-    })?;
+    let scene = method.scene(block([0.5, 0.0], 1, COLUMN), |_| {})?;
     let grains = *scene.grains().expect("grains");
     let contact = grains.contact;
     // What a grain's weight presses a spring at in a time unit of the contact.
