@@ -287,8 +287,8 @@ fn a_peers_scene_is_imported_and_runs() {
     let text = told(&mut import(&to_file), 0);
     for wanted in [
         "ignored: Configuration.maxError",
-        "become grains",
-        "imported 64 grains",
+        "becomes a weakly compressible fluid",
+        "imported 64 particles",
     ] {
         assert!(text.contains(wanted), "{wanted}: {text}");
     }
