@@ -28,7 +28,10 @@ impl Sequence {
         let manifest: Value =
             serde_json::from_slice(&text).map_err(|reason| Error::file(&path, "read", reason, mend))?;
         let scene = &manifest["scene"];
-        let radius = scene["grains"]["radius"].as_f64();
+        let spacing = scene["fluid"]["spacing"].as_f64();
+        let radius = scene["grains"]["radius"]
+            .as_f64()
+            .or(spacing.map(|spacing| spacing / 2.0));
         let dimensions = scene["dimensions"].as_u64();
         let (Some(radius), Some(dimensions)) = (radius, dimensions) else {
             return Err(Error::file(
