@@ -266,9 +266,7 @@ pub fn flow_at(flow: &Flow, dimensions: Dimensions, at: DVec3) -> (DVec3, f64) {
     match *flow {
         Flow::TaylorGreen { speed, wavelength } => {
             let k = std::f64::consts::TAU / wavelength;
-            let ((sx, cx), (sy, cy), (sz, cz)) =
-                ((k * at.x).sin_cos(), (k * at.y).sin_cos(), (k * at.z).sin_cos());
-            let _ = sz;
+            let ((sx, cx), (sy, cy), cz) = ((k * at.x).sin_cos(), (k * at.y).sin_cos(), (k * at.z).cos());
             let (c2x, c2y, c2z) = (
                 (2.0 * k * at.x).cos(),
                 (2.0 * k * at.y).cos(),

@@ -12,6 +12,7 @@ mod contact;
 mod emission;
 mod fit;
 pub mod fluid;
+mod fluid_keys;
 mod frame;
 pub mod import;
 mod json;

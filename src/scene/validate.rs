@@ -9,6 +9,7 @@ use super::bodies::{self, MOST_PARTICLES};
 use super::coloring::{self, Known};
 use super::contact::Law;
 use super::fluid::{Fluid, Speeds};
+use super::fluid_keys;
 use super::frame::{Frame, Report};
 use super::model::{
     Addressing, DensityFrom, Integrator, Render, SceneFile, SlicingAxis, StartPressure, Storage, Wall,
@@ -29,6 +30,7 @@ pub(super) fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Prob
         // Without a sound domain, what follows would only repeat its problems.
         return Err(report.problems);
     }
+    fluid_keys::check(&file, &mut report);
     let law = file.grains.as_ref().map(|grains| Law::new(grains, &mut report));
     let mass = mass(&file, frame.dimensions);
     let mut colliders = obstacles::colliders(&file, &frame, folder, &mut report);

@@ -1,0 +1,133 @@
+//! Keys that have no effect on what the scene is made of: a user who writes them expects something.
+
+use super::frame::Report;
+use super::model::{ColliderShape, NegativePressure, PressureForce, SceneFile, StartPressure};
+
+/// A problem for each.
+pub fn check(file: &SceneFile, report: &mut Report) {
+    if file.grains.is_some() {
+        of_fluids(file, report);
+    }
+    for (i, collider) in file.colliders.iter().enumerate() {
+        let round = matches!(collider.shape, ColliderShape::Sphere { .. });
+        if collider.spin.is_some() && file.fluid.is_some() && !round {
+            report.problem(
+                format!("colliders[{i}].spin"),
+                "only a sphere can turn and stay where it is",
+                "leave it out, or make the shape a sphere",
+            );
+        }
+    }
+    if let Some(fluid) = &file.fluid
+        && fluid.negative_pressure == NegativePressure::Control
+        && fluid.pressure_force != PressureForce::Symmetric
+    {
+        report.problem(
+            "fluid.negative_pressure",
+            "`control` is a change of the symmetric pressure force",
+            "choose `keep` or `clamp`, or set fluid.pressure_force to `symmetric`",
+        );
+    }
+}
+
+/// Those that only fluids have, in a scene of grains.
+fn of_fluids(file: &SceneFile, report: &mut Report) {
+    let mut problem = |path: String| {
+        report.problem(
+            path,
+            "has no effect on grains",
+            "leave it out, or make the scene's particles a `fluid`",
+        );
+    };
+    for (i, body) in file.bodies.iter().enumerate() {
+        let given = [
+            ("flow", body.flow.is_some()),
+            ("pressure", body.pressure != StartPressure::Rest),
+            ("material", body.material.is_some()),
+        ];
+        for (key, _) in given.into_iter().filter(|(_, given)| *given) {
+            problem(format!("bodies[{i}].{key}"));
+        }
+    }
+    for (i, emitter) in file.emitters.iter().enumerate() {
+        if emitter.material.is_some() {
+            problem(format!("emitters[{i}].material"));
+        }
+    }
+    for (i, collider) in file.colliders.iter().enumerate() {
+        if collider.spin.is_some() {
+            problem(format!("colliders[{i}].spin"));
+        }
+    }
+    for (name, _) in file
+        .domain
+        .side_velocities
+        .all()
+        .iter()
+        .flatten()
+        .filter(|(_, given)| given.is_some())
+    {
+        problem(format!("domain.side_velocities.{name}"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use serde_json::{Value, json};
+
+    use crate::scene::load::parse;
+
+    /// Paths of what is wrong with a scene.
+    fn problems(scene: &Value) -> String {
+        match parse(&scene.to_string(), "test.json", Path::new("."), &[]) {
+            Ok(_) => String::new(),
+            Err(error) => error.to_string(),
+        }
+    }
+
+    #[test]
+    fn what_only_fluids_have_is_told_in_a_scene_of_grains() {
+        let scene = |matter: &str, value: Value| {
+            json!({
+                "dimensions": 2,
+                "domain": { "min": [0, 0], "max": [1, 1], "side_velocities": { "y_max": [1, 0] } },
+                matter: value,
+                "bodies": [{
+                    "shape": { "kind": "box", "min": [0, 0], "max": [0.3, 0.3] },
+                    "flow": { "kind": "taylor_green", "speed": 1, "wavelength": 1 },
+                    "pressure": "hydrostatic",
+                }],
+                "colliders": [{ "shape": { "kind": "sphere", "center": [0.7, 0.7], "radius": 0.1 }, "spin": 1 }],
+            })
+        };
+        let told = problems(&scene(
+            "grains",
+            json!({ "radius": 0.02, "spring": 1e4, "restitution": 0.5 }),
+        ));
+        for path in [
+            "bodies[0].flow",
+            "bodies[0].pressure",
+            "colliders[0].spin",
+            "domain.side_velocities.y_max",
+        ] {
+            assert!(told.contains(path), "{path}: {told}");
+        }
+        assert_eq!(problems(&scene("fluid", json!({ "spacing": 0.05 }))), "");
+    }
+
+    #[test]
+    fn choices_that_do_not_go_together_are_told() {
+        let told = problems(&json!({
+            "dimensions": 2,
+            "domain": { "min": [0, 0], "max": [1, 1] },
+            "fluid": { "spacing": 0.05, "negative_pressure": "control", "pressure_force": "monaghan" },
+            "bodies": [{ "shape": { "kind": "box", "min": [0, 0], "max": [0.3, 0.3] } }],
+            "colliders": [{ "shape": { "kind": "box", "min": [0.6, 0.6], "max": [0.8, 0.8] }, "spin": 1 }],
+        }));
+        for path in ["fluid.negative_pressure", "colliders[0].spin"] {
+            assert!(told.contains(path), "{path}: {told}");
+        }
+    }
+}
