@@ -33,7 +33,7 @@
 //!   checkpoints, and how it goes on from them (`src/output/resume.rs`); recordings for the Rerun viewer
 //!   (`src/output/rerun.rs`).
 //! - `src/study/`: what the papers measured, measured again, a page each; errors against theory and experiment, beside
-//!   what they cost (`src/study/accuracy/`).
+//!   what they cost (`src/study/accuracy/`); which steps and hard cases hold (`src/study/stability/`).
 //! - `src/cli/`: one file a command.
 //!
 //! `shaders/` mirrors this: `shaders/common/`, `shaders/cells/` (addressing), `shaders/storage/`, `shaders/physics/`,
@@ -43,8 +43,9 @@
 //!
 //! `src/scene/shapes.rs` places it, relative to the scene's origin, which is subtracted in f64. The simulation writes
 //! it into `next_position`; the search's passes count it into a voxel and scatter it to its place in `position`, where
-//! neighbors in space are neighbors in memory. Every step, `shaders/physics/dem/symplectic_euler.wgsl` asks the search
-//! for candidate ranges, sums contacts and writes `next_position` again. At the end of a frame the renderer's vertex
+//! neighbors in space are neighbors in memory. Every step, `shaders/physics/dem/symplectic_euler.wgsl` (of a fluid,
+//! the file of that name in `shaders/physics/fluid/`) asks the search for candidate ranges, sums contacts and writes
+//! `next_position` again. At the end of a frame the renderer's vertex
 //! stage pulls the particle from the very same buffer, the fragment stage shades a sphere, and the pixels, a few
 //! figures and only the columns that a sink wants travel through a ring of staging buffers (`src/gpu/readback.rs`) to
 //! the encoder threads of `src/output/png.rs`.

@@ -8,7 +8,7 @@ use super::layout::{ClampWalls, Collider, Contact, ContactWalls, Measure};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::neighbors::Grid;
 use crate::neighbors::grid::voxel_reach;
-use crate::scene::column::{Column, Source};
+use crate::scene::column::Column;
 use crate::scene::model::{Dashpot, Integrator, Wall};
 use crate::scene::{self, Action, Dimensions, Scene};
 
@@ -55,7 +55,7 @@ pub fn plan(
     let contact_walls = has_wall(scene, Wall::Contact);
     let clamp_walls = has_wall(scene, Wall::Clamp);
     let ever = |positive: fn(&scene::Contact) -> bool| contacts(scene, grains).any(|c| positive(&c));
-    let measured: Vec<&Column> = columns.iter().filter(|c| c.source == Source::Measured).collect();
+    let measured = super::measured(scene, columns, variant);
     variant
         .flag("contact_walls", contact_walls)
         .flag("clamp_walls", clamp_walls)
@@ -67,9 +67,6 @@ pub fn plan(
         .flag("attraction", ever(|c| c.attraction > 0.0))
         .flag("global_damping", ever(|c| c.global_damping > 0.0))
         .flag("statistics", statistics);
-    for column in &measured {
-        variant.flag(&format!("column_{}", column.name), true);
-    }
 
     let mut solver = Solver::default();
     let buffers = &mut solver.buffers;
@@ -151,14 +148,7 @@ pub fn plan(
             Measure::LAYOUT.size,
             "what measures are divided by",
         ));
-        for column in &measured {
-            buffers.push(BufferPlan::storage(
-                column.name,
-                u64::from(scene.capacity),
-                4,
-                column.about,
-            ));
-        }
+        buffers.extend(measured);
         let why = "contacts, energies and measured columns of each grain, once a frame";
         solver.measure.push(pass("measure", "measure_grains", why));
     }

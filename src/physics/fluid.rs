@@ -10,7 +10,7 @@ use super::dem::{bounds, has_wall, packed_bytes};
 use super::kernels;
 use super::layout::{Fluid, Material, Measure, Planes};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
-use crate::scene::column::{Column, Source};
+use crate::scene::column::Column;
 use crate::scene::model::{
     DensityFrom, Integrator, Kernel, NegativePressure, PressureForce, Slip, ViscosityForm, Wall,
 };
@@ -49,7 +49,6 @@ pub fn plan(
     let planes = has_wall(scene, Wall::Planes);
     let continuity = fluid.density_from == DensityFrom::Continuity;
     let several = fluid.materials.len() > 1;
-    // Boundary particles that do not stick are left out of nothing but viscosity.
     let sticks = walls && viscous && fluid.slip == Slip::NoSlip;
     let shifting = fluid.shifting > 0.0;
     variant
@@ -95,10 +94,7 @@ pub fn plan(
     if planes {
         variant.constant("PLANE_CELLS", plane_cells(fluid));
     }
-    let measured: Vec<&Column> = columns.iter().filter(|c| c.source == Source::Measured).collect();
-    for column in &measured {
-        variant.flag(&format!("column_{}", column.name), true);
-    }
+    let measured = super::measured(scene, columns, variant);
 
     let mut solver = Solver::default();
     let each = u64::from(scene.capacity);
@@ -124,9 +120,6 @@ pub fn plan(
         "makes gradients exact for linear fields",
     );
     column(stress, "stress", matrix, "viscous stress");
-    for measured in &measured {
-        column(true, measured.name, 4, measured.about);
-    }
     buffers.push(BufferPlan::uniform(
         "fluid",
         Fluid::LAYOUT.size,
@@ -211,6 +204,7 @@ pub fn plan(
     if statistics || !measured.is_empty() {
         let why = "energies, densities and measured columns, once a frame";
         solver.measure.push(pass("measure", "measure_fluid", why));
+        buffers.extend(measured);
     }
     solver
 }

@@ -6,8 +6,19 @@ pub mod fluid;
 pub mod kernels;
 pub mod layout;
 
-use crate::gpu::{BufferPlan, Items, PassPlan};
+use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::scene::Scene;
+use crate::scene::column::{Column, Source};
+
+/// The buffers of those columns that are measured once a frame, each with its flag in the shaders.
+fn measured(scene: &Scene, columns: &[Column], variant: &mut Variant) -> Vec<BufferPlan> {
+    let measured = columns.iter().filter(|column| column.source == Source::Measured);
+    let buffer = |column: &Column| {
+        variant.flag(&format!("column_{}", column.name), true);
+        BufferPlan::storage(column.name, u64::from(scene.capacity), 4, column.about)
+    };
+    measured.map(buffer).collect()
+}
 
 /// Last pass of a velocity Verlet step.
 fn kick() -> PassPlan {

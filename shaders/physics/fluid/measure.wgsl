@@ -6,15 +6,7 @@
 #import physics/fluid/material
 #import physics/fluid/state
 
-#if column_contacts
-var<storage, read_write> contacts: array<u32>;
-#end
-#if column_pressure
-var<storage, read_write> pressure: array<f32>; // Pa
-#end
-#if column_density
-var<storage, read_write> density: array<f32>; // kg/m³
-#end
+#import physics/measured_columns
 #if statistics
 #import physics/group_sums
 #import physics/measure
