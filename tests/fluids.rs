@@ -54,7 +54,7 @@ fn stirred(dimensions: usize, steps: u32, overrides: &[&str]) -> Scene {
     scene
 }
 
-const SOLVERS: [&[&str]; 8] = [
+const SOLVERS: [&[&str]; 9] = [
     &[],
     &["time.integrator=velocity_verlet", "fluid.viscosity=5"],
     &["fluid.solver=sph", "fluid.viscosity=5"],
@@ -84,10 +84,11 @@ const SOLVERS: [&[&str]; 8] = [
     ],
     &[
         "fluid.materials=[{\"name\":\"water\",\"density\":1000,\"viscosity\":3},\
-         {\"name\":\"oil\",\"density\":500,\"viscosity\":10}]",
+         {\"name\":\"oil\",\"density\":500,\"viscosity\":10,\"surface_tension\":10}]",
         "fluid.negative_pressure=keep",
         "fluid.background_pressure=2000",
     ],
+    &["fluid.surface_tension=20", "fluid.contact_angle=60"],
 ];
 
 #[test]
@@ -235,6 +236,31 @@ fn nothing_leaks() {
         }
         let fastest = found.velocity.iter().map(|v| v.length()).fold(0.0, f32::max);
         assert!(fastest < 0.2, "after six seconds still {fastest} m/s");
+    }
+}
+
+/// What splashes higher than an open tank finds its sides there too.
+#[test]
+fn splashes_stay_above_their_tank() {
+    for integrator in ["symplectic_euler", "velocity_verlet"] {
+        let integrator = format!("time.integrator={integrator}");
+        let mut scene = common::fluid(
+            2,
+            &[
+                &integrator,
+                "colliders=[]",
+                "domain.sides={\"y_max\":\"open\"}",
+                "time.duration=4",
+                "time.fps=1",
+                "fluid.max_speed=4",
+            ],
+        );
+        let top = scene.domain.max;
+        scene.particles.position[0] = Vec3::new(top.x - 0.1, top.y + 0.1, 0.0);
+        scene.particles.velocity[0] = Vec3::new(2.0, 1.0, 0.0);
+        let found = particles(&scene, 4);
+        assert_ne!(found.position[0].x, scene.particles.position[0].x);
+        assert!(found.position[0].x.abs() < top.x, "{}", found.position[0]);
     }
 }
 

@@ -8,7 +8,7 @@ use glam::Vec3;
 use super::Solver;
 use super::dem::{bounds, has_wall, packed_bytes};
 use super::kernels;
-use super::layout::{Fluid, Material, Measure, Planes};
+use super::layout::{Fluid, Material, Measure, Planes, Rim};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::scene::column::Column;
 use crate::scene::model::{
@@ -44,9 +44,11 @@ pub fn plan(
 ) -> Solver {
     let viscous = fluid.materials.iter().any(|material| material.viscosity > 0.0);
     let stress = viscous && fluid.viscosity_form == ViscosityForm::Stress;
+    let tension = fluid.has_surface_tension();
     let walls = !scene.walls.is_empty();
     let moving = walls && scene.colliders.iter().any(|collider| !collider.path.is_empty());
     let planes = has_wall(scene, Wall::Planes);
+    let rim = has_wall(scene, Wall::Particles) && has_wall(scene, Wall::Open);
     let continuity = fluid.density_from == DensityFrom::Continuity;
     let several = fluid.materials.len() > 1;
     let sticks = walls && viscous && fluid.slip == Slip::NoSlip;
@@ -68,6 +70,7 @@ pub fn plan(
         )
         .flag("laplacian_form", viscous && !stress)
         .flag("stress_form", stress)
+        .flag("surface_tension", tension)
         .flag("artificial_viscosity", fluid.artificial_viscosity > 0.0)
         .flag("muller_kernels", fluid.kernel == Kernel::Muller)
         .flag(
@@ -90,6 +93,7 @@ pub fn plan(
         .flag("shifting", shifting)
         .flag("matrices", fluid.gradient_correction || stress || shifting)
         .flag("planes", planes)
+        .flag("rim", rim)
         .flag("statistics", statistics);
     if planes {
         variant.constant("PLANE_CELLS", plane_cells(fluid));
@@ -120,6 +124,9 @@ pub fn plan(
         "makes gradients exact for linear fields",
     );
     column(stress, "stress", matrix, "viscous stress");
+    let why = "where the surface is, and which way it faces";
+    column(tension, "surface_normal", vector, why);
+
     buffers.push(BufferPlan::uniform(
         "fluid",
         Fluid::LAYOUT.size,
@@ -128,6 +135,10 @@ pub fn plan(
     if planes {
         let why = "sides of the domain beyond which the fluid goes on";
         buffers.push(BufferPlan::uniform("planes", Planes::LAYOUT.size, why));
+    }
+    if rim {
+        let why = "where closed sides go on beyond open ones";
+        buffers.push(BufferPlan::uniform("rim", Rim::LAYOUT.size, why));
     }
     if several {
         let count = fluid.materials.len() as u64;
@@ -180,6 +191,12 @@ pub fn plan(
     if walls {
         let why = "boundary particles take on the fluid's pressure and velocity (Adami 2012)";
         solver.after_search.push(pass("boundary", "extend_to_walls", why));
+    }
+    if tension {
+        let why = "where the surface is, for its tension (Morris 2000)";
+        solver
+            .after_search
+            .push(pass("surface_normal", "find_surface", why));
     }
     if stress {
         let why = "velocity gradient and viscous stress (Rojas 2013, Eq. 4)";
@@ -243,6 +260,9 @@ pub fn coefficients(scene: &Scene, fluid: &scene::fluid::Fluid) -> Fluid {
         kernel_at_spacing: kernels::value(fluid.kernel, dimensions, h, fluid.spacing) as f32,
         smallest_square: (0.01 * half * half) as f32,
         lowest_excess: -(fluid.max_speed / sound).powi(2) as f32,
+        surface_tension: fluid.materials[0].surface_tension as f32,
+        wetting: fluid.contact_angle.to_radians().cos() as f32,
+        spacing: fluid.spacing as f32,
         first_wall: scene.first_wall(),
         closed: [closed(0), closed(1), closed(2), 0.0],
         ..Default::default()
@@ -258,6 +278,7 @@ pub fn materials(fluid: &scene::fluid::Fluid) -> Vec<Material> {
         density: material.density as f32,
         viscosity: material.viscosity as f32,
         stiffness: stiffness(fluid, material.density),
+        surface_tension: material.surface_tension as f32,
     });
     each.collect()
 }
@@ -287,6 +308,19 @@ pub fn planes(scene: &Scene, fluid: &scene::fluid::Fluid) -> Planes {
         anchor: scene.domain.min.extend(0.0).into(),
         spacing: fluid.spacing as f32,
         ..Default::default()
+    }
+}
+
+/// Sides of boundary particles, half a spacing inside, and open ones.
+pub fn rim(scene: &Scene, fluid: &scene::fluid::Fluid) -> Rim {
+    let inset = 0.5 * fluid.spacing as f32;
+    let (lower, upper) = bounds(scene, |wall| wall == Wall::Particles, inset);
+    let (open_lower, open_upper) = bounds(scene, |wall| wall == Wall::Open, 0.0);
+    Rim {
+        lower,
+        upper,
+        open_lower,
+        open_upper,
     }
 }
 

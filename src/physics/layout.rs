@@ -172,8 +172,13 @@ shared_struct! {
         /// m².
         pub smallest_square: f32,
         pub lowest_excess: f32,
+        /// N/m.
+        pub surface_tension: f32,
+        pub wetting: f32,
+        /// Metres.
+        pub spacing: f32,
         pub first_wall: u32,
-        pub _pad: u32,
+        pub _pad: [u32; 2],
         /// 1 along directions in which space does not repeat, else 0.
         pub closed: [f32; 4],
     }
@@ -200,6 +205,16 @@ shared_struct! {
 }
 
 shared_struct! {
+    pub struct Rim {
+        /// Metres; far away where there is no such side.
+        pub lower: [f32; 4],
+        pub upper: [f32; 4],
+        pub open_lower: [f32; 4],
+        pub open_upper: [f32; 4],
+    }
+}
+
+shared_struct! {
     pub struct Material {
         /// kg/m³.
         pub density: f32,
@@ -207,6 +222,8 @@ shared_struct! {
         pub viscosity: f32,
         /// Pa.
         pub stiffness: f32,
+        /// N/m.
+        pub surface_tension: f32,
     }
 }
 
@@ -222,6 +239,7 @@ pub const SHARED: &[SharedLayout] = &[
     Measure::LAYOUT,
     Fluid::LAYOUT,
     Planes::LAYOUT,
+    Rim::LAYOUT,
     Material::LAYOUT,
     Sums::LAYOUT,
     Occupancy::LAYOUT,

@@ -1,5 +1,7 @@
 //! A fluid with its numbers completed.
 
+use std::f64::consts::PI;
+
 use glam::{DVec3, Vec3};
 
 use super::frame::{Frame, Report};
@@ -18,6 +20,7 @@ const USUAL_SUPPORT: [f64; 2] = [3.0, 2.6];
 const SOUND_SHARE: f64 = 0.25;
 const VISCOUS_SHARE: f64 = 0.125;
 const FORCE_SHARE: f64 = 0.25;
+const CAPILLARY_SHARE: f64 = 0.25;
 
 /// A weakly compressible fluid; SI units.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,6 +48,8 @@ pub struct Fluid {
     pub artificial_viscosity: f64,
     pub viscosity_form: ViscosityForm,
     pub slip: Slip,
+    /// Degrees.
+    pub contact_angle: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,6 +58,8 @@ pub struct Material {
     pub density: f64,
     /// Dynamic, Pa·s.
     pub viscosity: f64,
+    /// N/m.
+    pub surface_tension: f64,
 }
 
 impl Kernel {
@@ -78,7 +85,10 @@ pub struct Speeds<'a> {
 impl Fluid {
     pub fn new(given: &model::Fluid, frame: &Frame, speeds: &Speeds, report: &mut Report) -> Self {
         let max_speed = given.max_speed.unwrap_or_else(|| expected_speed(frame, speeds));
-        let sound_speed = given.sound_speed.unwrap_or(SOUND_OVER_FLOW * max_speed);
+        let ripple = ripple_speed(given);
+        let sound_speed = given
+            .sound_speed
+            .unwrap_or(SOUND_OVER_FLOW * max_speed.max(ripple));
         if max_speed <= 0.0 && given.sound_speed.is_none() {
             report.problem(
                 "fluid",
@@ -92,6 +102,14 @@ impl Fluid {
                  than 4 %",
                 number(sound_speed),
                 number(max_speed)
+            ));
+        }
+        if sound_speed < 5.0 * ripple {
+            report.notes.push(format!(
+                "fluid.sound_speed {} m/s is less than five times the {} m/s of waves as short as the spacing: surface \
+                 tension will press particles together",
+                number(sound_speed),
+                number(ripple)
             ));
         }
         let kernel = given.kernel.unwrap_or(match given.solver {
@@ -127,12 +145,14 @@ impl Fluid {
             [] => vec![Material {
                 density: given.density,
                 viscosity: given.viscosity,
+                surface_tension: given.surface_tension,
             }],
             several => several
                 .iter()
                 .map(|m| Material {
                     density: m.density,
                     viscosity: m.viscosity,
+                    surface_tension: m.surface_tension,
                 })
                 .collect(),
         };
@@ -170,6 +190,7 @@ impl Fluid {
             artificial_viscosity: given.artificial_viscosity,
             viscosity_form: given.viscosity_form,
             slip: given.slip,
+            contact_angle: given.contact_angle.unwrap_or(90.0),
         }
     }
 
@@ -183,11 +204,20 @@ impl Fluid {
         self.spacing.powi(dimensions.count() as i32)
     }
 
-    /// The longest stable steps, seconds, and what each keeps: sound, viscosity and weight (Morris 1997).
-    pub fn step_limits(&self, gravity: f64) -> [(f64, &'static str); 3] {
+    pub fn has_surface_tension(&self) -> bool {
+        self.materials
+            .iter()
+            .any(|material| material.surface_tension > 0.0)
+    }
+
+    /// The longest stable steps, seconds, and what each keeps: sound, viscosity, weight (Morris 1997) and waves of the
+    /// surface (Brackbill 1992; Morris 2000).
+    pub fn step_limits(&self, gravity: f64) -> [(f64, &'static str); 4] {
         // Müller's kernels end at their smoothing length, which would count for two of the others'.
         let h = self.support / self.kernel.reach().max(2.0);
         let kinematic = self.materials.iter().map(|m| m.viscosity / m.density);
+        let tension = self.materials.iter().map(|m| m.surface_tension / m.density);
+        let tension = tension.fold(0.0, f64::max);
         let fastest = kinematic.fold(0.0, f64::max) + self.artificial_viscosity * h * self.sound_speed / 8.0;
         [
             (
@@ -196,6 +226,10 @@ impl Fluid {
             ),
             (VISCOUS_SHARE * h * h / fastest, "viscosity"),
             (FORCE_SHARE * (h / gravity).sqrt(), "gravity"),
+            (
+                CAPILLARY_SHARE * (h.powi(3) / (2.0 * PI * tension)).sqrt(),
+                "surface tension",
+            ),
         ]
     }
 
@@ -205,6 +239,17 @@ impl Fluid {
         let stiffness = density * self.sound_speed * self.sound_speed / gamma;
         ((pressure / stiffness).ln_1p() / gamma).exp_m1()
     }
+}
+
+/// Of the shortest waves of the surface, √(σ/ρΔx), m/s.
+fn ripple_speed(given: &model::Fluid) -> f64 {
+    let own = (given.surface_tension, given.density);
+    let all = given.materials.iter().map(|m| (m.surface_tension, m.density));
+    let each = all.chain(given.materials.is_empty().then_some(own));
+    let fastest = each
+        .map(|(tension, density)| tension / density)
+        .fold(0.0, f64::max);
+    (fastest / given.spacing).sqrt()
 }
 
 /// That of a fall from the highest particle to the domain's floor, or of what moves at the start.

@@ -19,6 +19,20 @@ pub fn check(file: &SceneFile, report: &mut Report) {
         }
     }
     if let Some(fluid) = &file.fluid
+        && fluid.contact_angle.is_some()
+        && fluid.surface_tension == 0.0
+        && fluid
+            .materials
+            .iter()
+            .all(|material| material.surface_tension == 0.0)
+    {
+        report.problem(
+            "fluid.contact_angle",
+            "has no effect without surface tension",
+            "leave it out, or give fluid.surface_tension (0.0728 N/m for water)",
+        );
+    }
+    if let Some(fluid) = &file.fluid
         && fluid.negative_pressure == NegativePressure::Control
         && fluid.pressure_force != PressureForce::Symmetric
     {

@@ -83,7 +83,7 @@ pub fn of_fluid(time: &model::Time, frames: u32, fluid: &Fluid, gravity: f64, re
     let (shortest, limit) = limits
         .into_iter()
         .min_by(|a, b| a.0.total_cmp(&b.0))
-        .expect("there are three limits");
+        .expect("there are four limits");
     let (step, limited_by) = match time.step {
         Some(step) => (step, "scene's step"),
         None => (shortest, limit),

@@ -172,6 +172,9 @@ impl Simulation {
             if buffers.contains("materials") {
                 buffers.write(gpu, "materials", 0, &fluid::materials(given))?;
             }
+            if buffers.contains("rim") {
+                buffers.write(gpu, "rim", 0, &[fluid::rim(scene, given)])?;
+            }
             if buffers.contains("planes") {
                 buffers.write(gpu, "planes", 0, &[fluid::planes(scene, given)])?;
             }

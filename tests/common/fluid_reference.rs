@@ -21,6 +21,7 @@ pub struct Reference {
     viscous: Vec<DVec3>,
     correction: Vec<DMat3>,
     stress: Vec<DMat3>,
+    surface_normal: Vec<DVec3>,
     material: Vec<usize>,
     surface: Vec<DVec3>,
     body_velocity: Vec<DVec3>,
@@ -71,6 +72,7 @@ impl Reference {
             viscous: Vec::new(),
             correction: Vec::new(),
             stress: Vec::new(),
+            surface_normal: Vec::new(),
             excess,
             free,
             material,
@@ -231,6 +233,32 @@ impl Reference {
             }
         }
         self.find_stress();
+        self.surface_normal = (0..self.position.len()).map(|i| self.surface_normal(i)).collect();
+    }
+
+    fn surface_normal(&self, i: usize) -> DVec3 {
+        if self.is_wall(i) {
+            return DVec3::ZERO;
+        }
+        let support = self.fluid.support;
+        let (mut normal, mut offset, mut wall_normal) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+        for (j, away, r, gradient) in self.neighbors(i) {
+            if self.is_wall(j) || self.material[j] == self.material[i] {
+                normal += gradient * self.volume(j);
+                offset += (1.0 - r / support) * away;
+            }
+            if self.is_wall(j) {
+                wall_normal += gradient * self.volume(j);
+            }
+        }
+        if normal.length() * support <= 0.5 {
+            return DVec3::ZERO;
+        }
+        let touch = (wall_normal.length() * support / 0.3).min(1.0);
+        let wall = wall_normal.normalize_or_zero();
+        let angle = self.fluid.contact_angle.to_radians();
+        let met = angle.cos() * wall + angle.sin() * (offset - offset.dot(wall) * wall).normalize_or_zero();
+        normal.length() * offset.normalize().lerp(met, touch).normalize_or_zero()
     }
 
     fn find_stress(&mut self) {
@@ -262,6 +290,8 @@ impl Reference {
             let density = self.rest_density(i) * (1.0 + self.excess[i]);
             let viscosity = fluid.materials[self.material[i]].viscosity;
             let (mut push, mut drag) = (DVec3::ZERO, DVec3::ZERO);
+            let normal = self.surface_normal[i];
+            let (mut turned, mut seen) = (0.0, 0.0);
             let (mut crowd, mut slopes, mut excess_slope) = (DVec3::ZERO, DMat3::ZERO, DVec3::ZERO);
             for (j, away, r, gradient) in self.neighbors(i) {
                 let volume = self.volume(j);
@@ -298,6 +328,14 @@ impl Reference {
                     let both = viscosity + fluid.materials[self.material[j]].viscosity;
                     drag += both * volume * gradient.dot(away) / (r * r) * apart;
                 }
+                let beside = self.surface_normal[j];
+                if beside != DVec3::ZERO && self.material[j] == self.material[i] {
+                    let direction = normal.normalize_or_zero();
+                    let along = away - away.dot(direction) * direction;
+                    let steep = volume * gradient.dot(away) / (r * r);
+                    turned += steep * (beside.normalize() - direction).dot(along);
+                    seen += steep * along.length_squared();
+                }
                 let approach = (self.velocity[j] - self.velocity[i]).dot(away).min(0.0);
                 let strength = fluid.artificial_viscosity * half * fluid.sound_speed;
                 drag += volume * density * strength * approach / (r * r + 0.01 * half * half) * gradient;
@@ -306,6 +344,13 @@ impl Reference {
                 crowd += volume * (1.0 + 0.2 * near.powi(4)) * gradient;
                 slopes += outer(self.velocity[j] - self.velocity[i], gradient) * volume;
                 excess_slope += volume * (self.excess[j] - self.excess[i]) * gradient;
+            }
+            if seen != 0.0 {
+                let sharpest = (self.dimensions - 1) as f64;
+                let curvature = -sharpest * turned / seen;
+                let most = sharpest / fluid.spacing;
+                let tension = fluid.materials[self.material[i]].surface_tension;
+                push += 2.0 * tension * curvature.clamp(-most, most) * normal;
             }
             if fluid.gradient_correction {
                 let exact = self.correction[i];

@@ -19,6 +19,9 @@ struct Fluid {
     kernel_at_spacing: f32, // W at the distance of particles at rest
     smallest_square: f32, // keeps quotients by squared distances finite, m²
     lowest_excess: f32, // of ρ/ρ₀ − 1 where negative pressures are clamped
+    surface_tension: f32, // N/m
+    wetting: f32, // cosine of the contact angle
+    spacing: f32, // of particles at rest, m
     first_wall: u32, // ids from here on are boundary particles
     closed: vec4f, // 1 along directions in which space does not repeat, else 0
 }

@@ -5,6 +5,9 @@
 #import physics/fluid/material
 #import physics/fluid/state
 #import physics/fluid/next
+#if rim
+#import physics/fluid/rim
+#end
 #if boundary_particles
 #import physics/fluid/wall_motion
 #end
@@ -32,6 +35,9 @@ fn drift_fluid(thread: Thread) {
     let a = unpack(acceleration[i]);
     var v = unpack(velocity[i]) + dt * a;
     var moved = wrapped(x + dt * (v - 0.5 * dt * a));
+#if rim
+    keep_within_rim(&moved, &v);
+#end
     watch(id[i], clock.step, x, &moved, &v);
     leave_fluid(i, moved, v, excess);
 }

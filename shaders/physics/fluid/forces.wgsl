@@ -14,6 +14,9 @@
 #if stress_form
 var<storage, read> stress: array<Matrix>;
 #end
+#if surface_tension
+var<storage, read> surface_normal: array<Packed>;
+#end
 #if gradient_correction
 var<storage, read> correction: array<Matrix>;
 #end
@@ -39,6 +42,12 @@ fn forces_on(i: u32) -> Forces {
     var crowd = Vector(0.0);
     var velocity_slope = Matrix();
     var excess_slope = Vector(0.0);
+#end
+#if surface_tension
+    let normal = unpack(surface_normal[i]);
+    let direction = normal / max(length(normal), 1e-30);
+    var turned = 0.0; // of the normals around, 1/m
+    var seen = 0.0;
 #end
     let home = around(i, x);
     for (var k = 0u; k < RANGES; k++) {
@@ -84,6 +93,19 @@ fn forces_on(i: u32) -> Forces {
 #else
                 drag -= weight * (mine + select(stress[j] * s, mine, is_wall(j)));
 #end
+#end
+#if surface_tension
+                let beside = unpack(surface_normal[j]);
+                let steepness = length(beside);
+#if several_materials
+                let on_surface = steepness > 0.0 && material[j] == material[i];
+#else
+                let on_surface = steepness > 0.0;
+#end
+                let part = select(0.0, weight, on_surface);
+                let along = s - dot(s, direction) * direction;
+                turned -= part * dot(beside / max(steepness, 1e-30) - direction, along);
+                seen -= part * dot(along, along);
 #end
 #if artificial_viscosity
                 let approach = min(dot(unpack(velocity[j]) - v, s), 0.0);
@@ -161,6 +183,13 @@ fn forces_on(i: u32) -> Forces {
 #end
 #end
     var forces = Forces();
+#if surface_tension
+    // Continuum surface force (Brackbill 1992), its curvature from what is seen of the surface (Adami 2010, Eq. 20), as
+    // far as particles resolve it. Half of the color's slope lies outside, so what lies inside counts twice.
+    let sharpest = f32(DIMENSIONS - 1u) / fluid.spacing;
+    let curvature = clamp(-f32(DIMENSIONS - 1u) * turned / max(seen, 1e-30), -sharpest, sharpest);
+    push += (2.0 * own.surface_tension * curvature) * normal;
+#end
     forces.acceleration = first(parameters.gravity) + (push + drag) / density;
 #if shifting
     let wanted = -(parameters.time_step * fluid.shifting) * crowd;

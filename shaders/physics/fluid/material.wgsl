@@ -5,6 +5,7 @@ struct Material {
     density: f32, // at rest, kg/m³
     viscosity: f32, // dynamic, Pa·s
     stiffness: f32, // ρ₀c²/γ, Pa
+    surface_tension: f32, // N/m
 }
 
 #if several_materials
@@ -16,7 +17,7 @@ fn material_of(i: u32) -> Material {
 }
 #else
 fn material_of(i: u32) -> Material {
-    return Material(fluid.density, fluid.viscosity, fluid.stiffness);
+    return Material(fluid.density, fluid.viscosity, fluid.stiffness, fluid.surface_tension);
 }
 #end
 

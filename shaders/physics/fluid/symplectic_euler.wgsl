@@ -3,6 +3,9 @@
 #import physics/guard
 #import physics/fluid/forces
 #import physics/fluid/next
+#if rim
+#import physics/fluid/rim
+#end
 #if boundary_particles
 #import physics/fluid/wall_motion
 #end
@@ -31,6 +34,9 @@ fn move_fluid(thread: Thread) {
     excess += dot(forces.excess_slope, forces.shift);
 #end
     moved = wrapped(moved);
+#if rim
+    keep_within_rim(&moved, &v);
+#end
     watch(id[i], clock.step, x, &moved, &v);
     leave_fluid(i, moved, v, excess);
 }

@@ -73,8 +73,16 @@ pub struct Fluid {
     /// What fluid does at walls.
     #[serde(default)]
     pub slip: Slip,
-    /// More fluids than one; bodies and emitters name theirs. The keys `density` and `viscosity` above hold for those
-    /// that name none.
+    /// Of the free surface, N/m (N in 2D); 0.0728 for water in air. Between two fluids it is the sum of both.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub surface_tension: f64,
+    /// At which the surface meets walls, measured inside the fluid, degrees; 90 when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 180.0))]
+    pub contact_angle: Option<f64>,
+    /// More fluids than one; bodies and emitters name theirs. The keys `density`, `viscosity` and
+    /// `surface_tension` above hold where none is described here.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub materials: Vec<Material>,
 }
@@ -95,6 +103,10 @@ pub struct Material {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub viscosity: f64,
+    /// N/m.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub surface_tension: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

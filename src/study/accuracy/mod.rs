@@ -5,6 +5,7 @@
 //! [`series`] and [`sampler`], and hands back [`record::Record`]s.
 
 pub mod cases;
+mod least_squares;
 pub mod norms;
 mod page;
 pub mod published;

@@ -5,14 +5,14 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, IVec3};
 
-/// Radius of the kernel over the spacing of particles. It smooths: where a field has curvature f″ along an axis, the
-/// value found is off by f″ R² · 5/144 in 2D and f″ R² / 30 in 3D.
-const REACH: f64 = 2.5;
+use super::least_squares;
 
-/// Particles of equal volume, found by place.
-///
-/// Values are interpolated with a Wendland C2 kernel, normalized by the kernel's own sum (Shepard 1968), so that
-/// constants are exact at free surfaces and walls too.
+/// Radius of the kernel over the spacing of particles.
+const REACH: f64 = 2.5;
+/// Points along an axis that a kernel's share of a box is counted with.
+const POINTS: i32 = 50;
+
+/// Particles of equal volume, found by place, weighted by a Wendland C2 kernel.
 pub struct Sampler<'a> {
     position: &'a [DVec3],
     dimensions: usize,
@@ -92,21 +92,21 @@ impl<'a> Sampler<'a> {
             .collect()
     }
 
-    fn weight(&self, mut away: DVec3) -> f64 {
+    /// The way to the nearest image.
+    fn nearest(&self, mut away: DVec3) -> DVec3 {
         for axis in 0..3 {
             if self.period[axis] > 0.0 {
                 away[axis] -= self.period[axis] * (away[axis] / self.period[axis]).round();
             }
         }
-        let share = away.length() / (REACH * self.spacing);
-        if share >= 1.0 {
-            return 0.0;
-        }
-        let at_zero = match self.dimensions {
-            2 => 7.0 / (PI * REACH.powi(2)),
-            _ => 21.0 / (2.0 * PI * REACH.powi(3)),
-        };
-        at_zero * (1.0 - share).powi(4) * (1.0 + 4.0 * share)
+        away
+    }
+
+    fn weight(&self, away: DVec3) -> f64 {
+        kernel(
+            self.dimensions,
+            self.nearest(away).length() / (REACH * self.spacing),
+        )
     }
 
     /// Sum of volumes times kernel: about 1 inside the fluid, ½ on its surface, 0 outside.
@@ -114,22 +114,23 @@ impl<'a> Sampler<'a> {
         self.weights(at).iter().map(|(_, weight)| weight).sum()
     }
 
-    /// Interpolates one value a particle; none where no particle is near.
-    pub fn scalar(&self, at: DVec3, value: &[f64]) -> Option<f64> {
-        self.mean(at, |index| DVec3::new(value[index], 0.0, 0.0))
-            .map(|v| v.x)
-    }
-
-    /// Interpolates one vector a particle; none where no particle is near.
+    /// Interpolates one vector a particle: moving least squares (Lancaster and Salkauskas 1981) with a parabola, exact for
+    /// fields of second order at walls too. None where too few particles are near.
     pub fn vector(&self, at: DVec3, value: &[DVec3]) -> Option<DVec3> {
-        self.mean(at, |index| value[index])
+        let samples = self.weights(at).into_iter().map(|(index, weight)| {
+            let away = self.nearest(self.position[index] - at) / (REACH * self.spacing);
+            (away, weight, value[index])
+        });
+        least_squares::parabola(samples, self.dimensions)
     }
 
-    fn mean(&self, at: DVec3, value: impl Fn(usize) -> DVec3) -> Option<DVec3> {
+    /// What a sensor in a wall shows of one value a particle: its mean over the kernel's part inside the box, of which
+    /// air counts as zero. `full` is the [`share`] of the same place.
+    pub fn on_wall(&self, at: DVec3, value: &[f64], full: f64) -> f64 {
         let weights = self.weights(at);
         let all: f64 = weights.iter().map(|(_, weight)| weight).sum();
-        let sum: DVec3 = weights.iter().map(|&(index, weight)| weight * value(index)).sum();
-        (all > 0.0).then(|| sum / all)
+        let sum: f64 = weights.iter().map(|&(index, weight)| weight * value[index]).sum();
+        sum / all.max(full)
     }
 
     /// Height of the water above `floor` (m): the highest point on the line upwards (y) from it where the filling is
@@ -153,6 +154,39 @@ impl<'a> Sampler<'a> {
         }
         low.min(most)
     }
+}
+
+/// Share of a kernel around `at` that lies inside a box: 1 inside, ½ at a side, ¼ at an edge.
+pub fn share(at: DVec3, dimensions: usize, spacing: f64, min: DVec3, max: DVec3) -> f64 {
+    let step = 2.0 * REACH * spacing / f64::from(POINTS);
+    let place = |k: i32| (f64::from(k) + 0.5 - 0.5 * f64::from(POINTS)) * step;
+    let deep = if dimensions == 2 { 1 } else { POINTS };
+    let mut sum = 0.0;
+    for x in 0..POINTS {
+        for y in 0..POINTS {
+            for z in 0..deep {
+                let depth = if deep == 1 { 0.0 } else { place(z) };
+                let away = DVec3::new(place(x), place(y), depth);
+                let point = at + away;
+                if point == point.clamp(min, max) {
+                    sum += kernel(dimensions, away.length() / (REACH * spacing));
+                }
+            }
+        }
+    }
+    sum * (step / spacing).powi(dimensions as i32)
+}
+
+/// Wendland C2, integral one over a ball of radius `REACH`; `part` is the distance over the radius.
+fn kernel(dimensions: usize, part: f64) -> f64 {
+    if part >= 1.0 {
+        return 0.0;
+    }
+    let at_zero = match dimensions {
+        2 => 7.0 / (PI * REACH.powi(2)),
+        _ => 21.0 / (2.0 * PI * REACH.powi(3)),
+    };
+    at_zero * (1.0 - part).powi(4) * (1.0 + 4.0 * part)
 }
 
 #[cfg(test)]
@@ -180,38 +214,48 @@ mod tests {
     }
 
     #[test]
-    fn constants_are_exact_and_lines_nearly() {
+    fn parabolas_are_exact_in_corners_too() {
         for cells in [[20, 20, 0], [20, 20, 20]] {
             let places = block(cells, 0.1);
             let dimensions = if cells[2] == 0 { 2 } else { 3 };
             let sampler = Sampler::new(&places, dimensions, SPACING, None);
-            let constant = vec![3.5; places.len()];
-            let line: Vec<f64> = places.iter().map(|p| 2.0 * p.x - p.y + p.z).collect();
+            let field = |p: DVec3| {
+                DVec3::new(
+                    3.5,
+                    2.0 * p.x - p.y + p.z,
+                    p.x * p.x - 3.0 * p.x * p.y + p.z * p.y,
+                )
+            };
+            let values: Vec<DVec3> = places.iter().map(|&p| field(p)).collect();
             let z = if dimensions == 2 { 0.0 } else { 0.5 };
-            for (x, y) in [(0.5, 0.5), (0.33, 0.71)] {
+            for (x, y) in [(0.5, 0.5), (0.33, 0.71), (0.02, 0.03)] {
                 let at = DVec3::new(x, y, z);
-                assert!((sampler.scalar(at, &constant).unwrap() - 3.5).abs() < 1e-14);
-                assert!((sampler.scalar(at, &line).unwrap() - (2.0 * x - y + z)).abs() < 6e-3);
-                assert!((sampler.filling(at) - 1.0).abs() < 0.1, "{}", sampler.filling(at));
+                let found = sampler.vector(at, &values).unwrap();
+                assert!((found - field(at)).length() < 1e-9, "{at}: {found}");
             }
-            // Exact in the corner too, and nothing outside.
-            assert!((sampler.scalar(DVec3::ZERO, &constant).unwrap() - 3.5).abs() < 1e-14);
-            assert_eq!(sampler.scalar(DVec3::splat(-1.0), &constant), None);
+            assert_eq!(sampler.vector(DVec3::splat(-1.0), &values), None);
         }
     }
 
     #[test]
-    fn curvature_is_smoothed_as_told() {
-        let places = block([40, 40, 0], 0.0);
-        let sampler = Sampler::new(&places, 2, SPACING, None);
-        let square: Vec<f64> = places.iter().map(|p| p.x * p.x).collect();
-        let found = sampler.scalar(DVec3::new(1.0, 1.0, 0.0), &square).unwrap();
-        let expected = 2.0 * (REACH * SPACING).powi(2) * 5.0 / 144.0;
-        assert!(
-            ((found - 1.0) / expected - 1.0).abs() < 0.03,
-            "{} {expected}",
-            found - 1.0
-        );
+    fn sensors_in_walls_see_air() {
+        for cells in [[20, 10, 0], [20, 10, 20]] {
+            let places = block(cells, 0.0);
+            let dimensions = if cells[2] == 0 { 2 } else { 3 };
+            let z = if dimensions == 2 { 0.0 } else { 0.5 };
+            let max = DVec3::new(1.0, 1.0, if dimensions == 2 { 0.0 } else { 1.0 });
+            let sampler = Sampler::new(&places, dimensions, SPACING, None);
+            let pressure = vec![2.0; places.len()];
+            let shown = |y: f64| {
+                let at = DVec3::new(0.0, y, z);
+                sampler.on_wall(at, &pressure, share(at, dimensions, SPACING, DVec3::ZERO, max))
+            };
+            assert!((sampler.filling(DVec3::new(0.5, 0.25, z)) - 1.0).abs() < 0.1);
+            assert!((shown(0.25) - 2.0).abs() < 0.05, "{}", shown(0.25));
+            assert!((shown(0.01) - 2.0).abs() < 0.1, "{}", shown(0.01));
+            assert!((shown(0.5) - 1.0).abs() < 0.05, "{}", shown(0.5));
+            assert_eq!(shown(0.9), 0.0);
+        }
     }
 
     #[test]
@@ -233,9 +277,8 @@ mod tests {
                     sampler.filling(at)
                 );
                 let found = sampler.vector(at, &values).unwrap();
-                // Smoothed by exp(−k² σ²/2) at most.
                 assert!(
-                    (found.x - wave(x)).abs() < 0.02 && (found.y - 0.98).abs() < 0.02,
+                    (found.x - wave(x)).abs() < 0.005 && (found.y - 1.0).abs() < 0.005,
                     "{x}: {found}"
                 );
             }

@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::study::Size;
 use crate::study::accuracy::record::{Bar, Figure, Record};
 use crate::study::accuracy::reference;
-use crate::study::accuracy::sampler::Sampler;
+use crate::study::accuracy::sampler::{Sampler, share};
 use crate::study::accuracy::series::Series;
 use crate::study::bench::Bench;
 
@@ -59,11 +59,14 @@ fn one(bench: &Bench, size: Size, n: u32) -> Result<Record> {
     );
     let spacing = H / f64::from(n);
     let mut gauges = [(); 4].map(|()| Series::default());
+    // The side of the tank in front of the box.
+    let face = DVec3::new(SENSOR.x, domain.0.y, domain.0.z);
+    let share = share(SENSOR, 3, spacing, face, domain.1);
     let mut sensor = Series::default();
     let mut lost = 0;
     let run = flow(bench, &scene, |flow| {
         let sampler = Sampler::new(&flow.position, 3, spacing, None);
-        let pressure = sampler.scalar(SENSOR, &flow.pressure).unwrap_or(0.0);
+        let pressure = sampler.on_wall(SENSOR, &flow.pressure, share);
         sensor.push(flow.time, pressure);
         for (series, x) in gauges.iter_mut().zip(GAUGES) {
             series.push(flow.time, sampler.height(DVec3::new(x, 0.0, 0.5), 1.0));

@@ -34,7 +34,7 @@ const FIGURE: &str = "L1 of pressure";
 const METHODS: [&[&str]; 3] = [
     &["domain.walls=particles"],
     &["domain.walls=planes"],
-    &["domain.walls=particles", "fluid.support=3"],
+    &["domain.walls=particles", "fluid.support=4"],
 ];
 
 fn all_methods(bench: &Bench, size: Size, n: u32) -> Result<Vec<Record>> {
