@@ -23,7 +23,7 @@ fn wanted() -> Wanted {
 
 /// Plans of fluids that together use every flag and role.
 fn fluid_plans() -> Vec<Plan> {
-    let solvers: [&[&str]; 8] = [
+    let solvers: [&[&str]; 9] = [
         &["fluid.solver=sph", "fluid.viscosity=0.1"],
         &[
             "fluid.density_from=summation",
