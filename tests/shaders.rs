@@ -37,7 +37,10 @@ fn fluid_plans() -> Vec<Plan> {
             "time.integrator=velocity_verlet",
         ],
         &["fluid.viscosity=0.1", "fluid.viscosity_form=stress"],
-        &["fluid.surface_tension=1", "domain.sides={\"y_max\":\"open\"}"],
+        &[
+            "fluid.surface_tension=1",
+            "domain.sides={\"y_min\":\"particles\",\"y_max\":\"open\"}",
+        ],
         &[
             "fluid.viscosity=0.1",
             "fluid.slip=free_slip",
