@@ -130,6 +130,23 @@ fn every_search_goes_on() {
     }
 }
 
+/// The next step's length is part of the state.
+#[test]
+fn adaptive_steps_go_on() {
+    let events = r#"events=[{"at":0.12,"set":{"gravity":[2,-9]}},{"at":0.1,"drop":{"center":[0.35,0.5],"radius":0.09}}]"#;
+    let adaptive = "time.adaptive=true";
+    for integrator in [
+        "time.integrator=symplectic_euler",
+        "time.integrator=velocity_verlet",
+    ] {
+        halves(&common::scene(2, &[adaptive, events, integrator]), integrator);
+        let thrown = r#"bodies=[{"shape":{"kind":"box","min":[0,0.05],"max":[0.4,0.4]},"velocity":[3,-5]}]"#;
+        let scene = common::fluid(2, &[adaptive, thrown, integrator, "time.fps=60"]);
+        let state = halves(&scene, &format!("fluid, {integrator}"));
+        assert!(state.buffer("pace").is_some());
+    }
+}
+
 /// Grains fly apart, so that the grid grows before and behind the middle.
 #[test]
 fn a_grid_that_grows_goes_on() {

@@ -23,8 +23,10 @@ fn wanted() -> Wanted {
 
 /// Plans of fluids that together use every flag and role.
 fn fluid_plans() -> Vec<Plan> {
-    let solvers: [&[&str]; 9] = [
+    let solvers: [&[&str]; 11] = [
         &["fluid.solver=sph", "fluid.viscosity=0.1"],
+        &["time.adaptive=true"],
+        &["time.adaptive=true", "time.integrator=velocity_verlet"],
         &[
             "fluid.density_from=summation",
             "fluid.pressure_force=monaghan",
@@ -88,7 +90,11 @@ fn plans() -> Vec<Plan> {
         for addressing in ADDRESSINGS.iter().map(|row| row.name) {
             for storage in STORAGES.iter().map(|row| row.name) {
                 for integrator in ["symplectic_euler", "velocity_verlet"] {
-                    for (skin, regions) in [(0.0, false), (0.1, addressing == "sliced")] {
+                    for (skin, regions, adaptive) in [
+                        (0.0, false, false),
+                        (0.1, addressing == "sliced", false),
+                        (0.1, false, true),
+                    ] {
                         for (dashpot, walls) in [("full", "contact"), ("normal", "clamp")] {
                             let scene = common::scene(
                                 dimensions,
@@ -97,6 +103,7 @@ fn plans() -> Vec<Plan> {
                                     &format!("neighbors.storage={storage}"),
                                     &format!("neighbors.skin={skin}"),
                                     &format!("neighbors.regions={regions}"),
+                                    &format!("time.adaptive={adaptive}"),
                                     &format!("time.integrator={integrator}"),
                                     &format!("grains.dashpot={dashpot}"),
                                     &format!("domain.walls={walls}"),

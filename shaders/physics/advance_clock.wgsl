@@ -1,5 +1,8 @@
 #flag advances_clock
 #import physics/clock
+#if adaptive_step
+#import physics/choose_step
+#end
 #if lists
 #import storage/lists/decide
 #end
@@ -14,6 +17,10 @@ fn advance_clock() {
 #end
     clock.step_in_segment += 1u;
     clock.step += 1u;
+#if adaptive_step
+    count_step();
+    choose_step();
+#end
 #if lists
     decide_search();
 #end

@@ -2,6 +2,7 @@
 #import common/vector
 #import common/thread
 #import common/parameters
+#import physics/time_step
 
 var<storage, read> next_acceleration: array<Packed>;
 var<storage, read_write> velocity: array<Packed>;
@@ -11,7 +12,7 @@ var<storage, read_write> acceleration: array<Packed>;
 fn kick(thread: Thread) {
     let i = item_index(thread);
     if i < parameters.particle_count {
-        velocity[i] += 0.5 * parameters.time_step * (next_acceleration[i] - acceleration[i]);
+        velocity[i] += 0.5 * time_step() * (next_acceleration[i] - acceleration[i]);
         acceleration[i] = next_acceleration[i];
     }
 }

@@ -114,6 +114,7 @@ impl<'a> Report<'a> {
             "fps": scene.time.fps,
             "step_s": scene.time.step,
             "step_limited_by": scene.time.limited_by,
+            "step_adaptive": scene.time.adaptive.is_some(),
             "contact_duration_s": scene.time.contact_duration,
             "steps_per_frame": scene.time.steps_per_frame,
             "steps": self.steps(),
@@ -148,11 +149,14 @@ impl fmt::Display for Report<'_> {
             0 => writeln!(f)?,
             walls => writeln!(f, ", and {} boundary particles", count(walls))?,
         }
+        let adaptive = time.adaptive.is_some();
         writeln!(f, "grid       {}", grid::name(&scene.neighbors))?;
         write!(
             f,
-            "step       {:.4e} s, limited by the {}",
-            time.step, time.limited_by
+            "step       {}{:.4e} s, limited by the {}",
+            if adaptive { "adaptive, about " } else { "" },
+            time.step,
+            time.limited_by
         )?;
         match time.contact_duration {
             Some(contact) => writeln!(f, "; the shortest contact lasts {contact:.4e} s")?,
@@ -160,9 +164,10 @@ impl fmt::Display for Report<'_> {
         }
         writeln!(
             f,
-            "frames     {} at {} a simulated second, {} steps a frame, {} steps in all",
+            "frames     {} at {} a simulated second, {}{} steps a frame, {} steps in all",
             count(time.frames.into()),
             time.fps,
+            if adaptive { "about " } else { "" },
             count(time.steps_per_frame.into()),
             count(self.steps())
         )?;

@@ -39,6 +39,8 @@ pub struct Manifest<'a> {
     pub step_s: f64,
     pub steps_per_frame: u32,
     pub step_limited_by: &'static str,
+    /// Whether steps have lengths of their own; `step_s` and `steps_per_frame` are then what was expected.
+    pub step_adaptive: bool,
     /// What was decided or dropped while the scene was read.
     pub notes: &'a [String],
     /// Of `scene`, as JSON without spaces.
@@ -98,6 +100,7 @@ impl<'a> Manifest<'a> {
             step_s: scene.time.step,
             steps_per_frame: scene.time.steps_per_frame,
             step_limited_by: scene.time.limited_by,
+            step_adaptive: scene.time.adaptive.is_some(),
             notes: &scene.notes,
             scene_sha256: hex(&Sha256::digest(text)),
             scene: &scene.file,

@@ -10,7 +10,7 @@ use serde_json::{Map, Value};
 
 use super::{Sink, disk};
 use crate::error::Result;
-use crate::simulation::frame::{Frame, Statistics};
+use crate::simulation::frame::{AdaptiveSteps, Frame, Statistics};
 
 /// Appends a line as soon as a frame is there, so that a run can be followed with `tail -f`.
 pub struct StatisticsFile {
@@ -57,7 +57,12 @@ struct Line {
     time_s: f64,
     /// Since the run began.
     steps: u64,
+    /// The mean where steps are adaptive.
     step_s: f64,
+    /// What limited most of the steps since the last frame.
+    step_limited_by: &'static str,
+    #[serde(flatten)]
+    adaptive: Option<Adaptive>,
     particles: u32,
     overflow_since_last_frame: u64,
     quarantined: u32,
@@ -66,6 +71,28 @@ struct Line {
     /// Sum over the frame's steps, by pass; only with `--timings`.
     #[serde(skip_serializing_if = "Map::is_empty")]
     pass_ms: Map<String, Value>,
+}
+
+/// Of the steps since the last frame.
+#[derive(Serialize)]
+struct Adaptive {
+    step_min_s: f64,
+    step_max_s: f64,
+    /// How many each term limited.
+    steps_limited_by: Map<String, Value>,
+}
+
+impl From<&AdaptiveSteps> for Adaptive {
+    fn from(from: &AdaptiveSteps) -> Self {
+        let limited = from.limited_by.iter();
+        Self {
+            step_min_s: from.shortest_s,
+            step_max_s: from.longest_s,
+            steps_limited_by: limited
+                .map(|(name, steps)| ((*name).to_owned(), (*steps).into()))
+                .collect(),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -125,6 +152,8 @@ pub fn figures(frame: &Frame) -> Map<String, Value> {
         time_s: frame.time,
         steps: frame.steps,
         step_s: frame.step_s,
+        step_limited_by: frame.step_limited_by,
+        adaptive: frame.adaptive.as_ref().map(Adaptive::from),
         particles: frame.particles,
         overflow_since_last_frame: frame.overflow,
         quarantined: frame.quarantined,
@@ -158,14 +187,20 @@ mod tests {
             time: 0.1,
             steps: 300,
             step_s: 1e-3,
+            step_limited_by: "viscosity",
             particles: 10,
             ..Default::default()
         };
         assert_eq!(
             line(&frame),
-            r#"{"frame":3,"time_s":0.1,"steps":300,"step_s":0.001,"particles":10,"overflow_since_last_frame":0,"quarantined":0}"#
+            r#"{"frame":3,"time_s":0.1,"steps":300,"step_s":0.001,"step_limited_by":"viscosity","particles":10,"overflow_since_last_frame":0,"quarantined":0}"#
         );
 
+        frame.adaptive = Some(AdaptiveSteps {
+            shortest_s: 1e-4,
+            longest_s: 2e-3,
+            limited_by: vec![("viscosity", 3), ("motion", 7)],
+        });
         frame.statistics = Some(Statistics {
             voxels_with: [4, 3, 2, 1],
             ..Default::default()
@@ -175,6 +210,9 @@ mod tests {
             .into();
         let value: Value = serde_json::from_str(&line(&frame)).unwrap();
         assert_eq!(value["voxels_with_1"], 4);
+        assert_eq!(value["step_max_s"], 2e-3);
+        let limits = &value["steps_limited_by"];
+        assert_eq!(limits.to_string(), r#"{"viscosity":3,"motion":7}"#);
         assert_eq!(value["voxels_with_4"], 1);
         assert_eq!(value["pass_ms"].to_string(), r#"{"push":3.0,"count":0.5}"#);
     }

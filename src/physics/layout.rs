@@ -22,6 +22,65 @@ shared_struct! {
 }
 
 shared_struct! {
+    /// How far a segment has come, and the lengths of steps, where the device chooses them.
+    pub struct Pace {
+        /// Ticks until the segment ends.
+        pub left: u32,
+        /// Seconds.
+        pub tick: f32,
+        /// Not zero: a frame ends with the segment.
+        pub ends_frame: u32,
+        /// Of the fastest obstacle in this segment, m/s.
+        pub obstacle_speed: f32,
+        /// Length of the step made last, seconds.
+        pub step: f32,
+        /// Length of the step that comes, seconds.
+        pub next_step: f32,
+        pub next_ticks: u32,
+        /// What the limits allow that step, seconds.
+        pub wanted: f32,
+        /// Which limit that is ([`super::pace::names`]).
+        pub limit: u32,
+        /// Not zero: steps would be so short that the run would never end.
+        pub stalled: u32,
+        /// Steps since the last frame, seconds.
+        pub shortest: f32,
+        pub longest: f32,
+        /// Steps since the last frame, by what limited them.
+        pub made: [u32; 6],
+    }
+}
+
+shared_struct! {
+    /// What a step notes of its particles for the next one's length, as bits of `f32`.
+    pub struct Extremes {
+        /// m/s².
+        pub acceleration: u32,
+        /// m/s.
+        pub signal: u32,
+        /// m/s.
+        pub sound: u32,
+    }
+}
+
+shared_struct! {
+    pub struct PaceLimits {
+        /// Seconds.
+        pub constant: f32,
+        /// Metres.
+        pub way: f32,
+        /// Metres.
+        pub fall: f32,
+        /// m/s.
+        pub sound_speed: f32,
+        /// m/s.
+        pub expected_speed: f32,
+        /// Seconds.
+        pub shortest: f32,
+    }
+}
+
+shared_struct! {
     pub struct Guard {
         /// Metres; beyond it a particle is lost.
         pub lower: [f32; 4],
@@ -231,6 +290,9 @@ shared_struct! {
 pub const SHARED: &[SharedLayout] = &[
     Parameters::LAYOUT,
     Clock::LAYOUT,
+    Pace::LAYOUT,
+    Extremes::LAYOUT,
+    PaceLimits::LAYOUT,
     Guard::LAYOUT,
     ContactWalls::LAYOUT,
     ClampWalls::LAYOUT,

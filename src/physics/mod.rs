@@ -5,6 +5,7 @@ pub mod dem;
 pub mod fluid;
 pub mod kernels;
 pub mod layout;
+pub mod pace;
 
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::scene::Scene;

@@ -14,7 +14,7 @@ use crate::gpu::{BufferPlan, DISPATCHES, Items, PassPlan, Variant};
 use crate::neighbors::{self, Grid};
 use crate::physics::collider::Obstacles;
 use crate::physics::layout::{Clock, Guard, Occupancy, Parameters, Sums};
-use crate::physics::{dem, fluid};
+use crate::physics::{dem, fluid, pace};
 use crate::render;
 use crate::scene::column::{Column, Source};
 use crate::scene::model::View;
@@ -156,6 +156,7 @@ impl Plan {
         let mut buffers = state_buffers(scene);
         buffers.extend(search.buffers);
         buffers.extend(solver.buffers);
+        buffers.extend(pace::plan(scene, &mut variant));
 
         let row = |phase| {
             move |pass: &PassPlan| PassRow {

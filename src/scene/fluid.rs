@@ -10,7 +10,7 @@ use super::model::{
     StartPressure, ViscosityForm,
 };
 use super::text::{number, suggest};
-use super::{Dimensions, Particles};
+use super::{Dimensions, Particles, StepLimits};
 
 /// Sound travels so much faster than the fastest expected flow: density then varies by about 1 % (Monaghan 1994).
 const SOUND_OVER_FLOW: f64 = 10.0;
@@ -21,6 +21,9 @@ const SOUND_SHARE: f64 = 0.25;
 const VISCOUS_SHARE: f64 = 0.125;
 const FORCE_SHARE: f64 = 0.25;
 const CAPILLARY_SHARE: f64 = 0.25;
+/// Names of the limits that change with the flow.
+const SOUND: &str = "speed of sound";
+const GRAVITY: &str = "gravity";
 
 /// A weakly compressible fluid; SI units.
 #[derive(Debug, Clone, PartialEq)]
@@ -213,24 +216,44 @@ impl Fluid {
     /// The longest stable steps, seconds, and what each keeps: sound, viscosity, weight (Morris 1997) and waves of the
     /// surface (Brackbill 1992; Morris 2000).
     pub fn step_limits(&self, gravity: f64) -> [(f64, &'static str); 4] {
-        // Müller's kernels end at their smoothing length, which would count for two of the others'.
-        let h = self.support / self.kernel.reach().max(2.0);
+        let h = self.step_length();
         let kinematic = self.materials.iter().map(|m| m.viscosity / m.density);
         let tension = self.materials.iter().map(|m| m.surface_tension / m.density);
         let tension = tension.fold(0.0, f64::max);
         let fastest = kinematic.fold(0.0, f64::max) + self.artificial_viscosity * h * self.sound_speed / 8.0;
         [
-            (
-                SOUND_SHARE * h / (self.sound_speed + self.max_speed),
-                "speed of sound",
-            ),
+            (SOUND_SHARE * h / (self.sound_speed + self.max_speed), SOUND),
             (VISCOUS_SHARE * h * h / fastest, "viscosity"),
-            (FORCE_SHARE * (h / gravity).sqrt(), "gravity"),
+            (FORCE_SHARE * (h / gravity).sqrt(), GRAVITY),
             (
                 CAPILLARY_SHARE * (h.powi(3) / (2.0 * PI * tension)).sqrt(),
                 "surface tension",
             ),
         ]
+    }
+
+    /// The length that steps are compared with, metres: h, but Müller's kernels end at their smoothing length, which
+    /// would count for two of the others'.
+    fn step_length(&self) -> f64 {
+        self.support / self.kernel.reach().max(2.0)
+    }
+
+    /// The same for steps that follow the flow: only the other limits never change. `longest` is the scene's own, s.
+    pub fn adaptive_limits(&self, gravity: f64, longest: Option<f64>) -> StepLimits {
+        let limits = self.step_limits(gravity).into_iter();
+        let constant = limits
+            .filter(|(_, name)| ![SOUND, GRAVITY].contains(name))
+            .chain(longest.map(|step| (step, "scene's step")));
+        let h = self.step_length();
+        StepLimits {
+            constant: constant
+                .min_by(|a, b| a.0.total_cmp(&b.0))
+                .expect("viscosity is one"),
+            way: SOUND_SHARE * h,
+            fall: FORCE_SHARE * FORCE_SHARE * h,
+            sound_speed: self.sound_speed,
+            expected_speed: self.max_speed,
+        }
     }
 
     /// (ρ/ρ₀) − 1 at a pressure above the background, Pa: the inverse of the equation of state.

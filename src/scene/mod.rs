@@ -342,7 +342,7 @@ pub struct Time {
     /// Frames to write, the first state included: frame f shows time f / fps.
     pub frames: u32,
     pub fps: f64,
-    /// Seconds; a whole number of steps makes one frame.
+    /// Seconds; a whole number of steps makes one frame. Where steps are adaptive, what they are expected to be.
     pub step: f64,
     pub steps_per_frame: u32,
     pub integrator: Integrator,
@@ -350,6 +350,23 @@ pub struct Time {
     pub contact_duration: Option<f64>,
     /// What limits the step, in words.
     pub limited_by: &'static str,
+    /// What the device chooses each step by; steps are all the same when `None`.
+    pub adaptive: Option<StepLimits>,
+}
+
+/// What limits the length of a step that the device chooses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepLimits {
+    /// The shortest of the limits that never change, seconds, and its name.
+    pub constant: (f64, &'static str),
+    /// Metres that motion and sound together may go in a step.
+    pub way: f64,
+    /// A step is at most √(fall / acceleration), metres.
+    pub fall: f64,
+    /// Of a fluid at rest density, m/s; 0 for grains.
+    pub sound_speed: f64,
+    /// Of a fluid, m/s; 0 for grains.
+    pub expected_speed: f64,
 }
 
 /// How values become colors.

@@ -738,7 +738,8 @@ pub struct Time {
     /// Frames per simulated second.
     #[schemars(range(min = 1e-6, max = 1e9))]
     pub fps: f64,
-    /// Seconds; derived from the contact's duration when left out. Shortened so that steps land on frame times.
+    /// Seconds; derived from contacts or from the fluid's speeds when left out. Shortened so that steps land on frame
+    /// times. The longest step where steps are adaptive.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-12, max = 1e3))]
     pub step: Option<f64>,
@@ -746,6 +747,10 @@ pub struct Time {
     #[schemars(range(min = 20, max = 100_000))]
     pub steps_per_contact: u32,
     pub integrator: Integrator,
+    /// Whether the device chooses each step by what it finds: motion, acceleration and, in fluids, the local speed of
+    /// sound, besides the contact's duration, viscosity and `step`. Steps land on frame times and on events. Needs
+    /// neighbor lists (`neighbors.skin`).
+    pub adaptive: bool,
 }
 
 impl Default for Time {
@@ -756,6 +761,7 @@ impl Default for Time {
             step: None,
             steps_per_contact: 40,
             integrator: Integrator::default(),
+            adaptive: false,
         }
     }
 }

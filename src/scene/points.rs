@@ -112,6 +112,7 @@ impl Scene {
                 integrator: Integrator::default(),
                 contact_duration: None,
                 limited_by: "nothing moves",
+                adaptive: None,
             },
             render: Render::default(),
             color: Coloring {

@@ -3,7 +3,7 @@
 use super::fluid::Fluid;
 use super::frame::Report;
 use super::text::number;
-use super::{Contact, Time, model};
+use super::{Contact, StepLimits, Time, model};
 
 const MOST_FRAMES: f64 = 1e6;
 const MOST_STEPS_PER_FRAME: f64 = 1e8;
@@ -11,6 +11,8 @@ const MOST_STEPS_PER_FRAME: f64 = 1e8;
 const FEWEST_STEPS_PER_CONTACT: f64 = 20.0;
 /// Largest share of a velocity that damping may take in one explicit step.
 const LARGEST_DAMPED_SHARE: f64 = 0.5;
+/// Share of its radius that a grain may move in an adaptive step, by its speed or by its acceleration.
+const GRAIN_SHARE: f64 = 0.1;
 
 /// Frames f = 0, 1, … show time f / fps.
 pub fn frames(time: &model::Time, report: &mut Report) -> u32 {
@@ -34,6 +36,7 @@ pub fn of_grains(
     frames: u32,
     contacts: &[Contact],
     mass: f64,
+    radius: f64,
     report: &mut Report,
 ) -> Time {
     let shortest = contacts
@@ -41,9 +44,10 @@ pub fn of_grains(
         .map(|contact| contact.duration(mass))
         .fold(f64::INFINITY, f64::min);
     let coarsest = shortest / FEWEST_STEPS_PER_CONTACT;
+    let usual = shortest / f64::from(time.steps_per_contact);
     let (mut step, mut limited_by) = match time.step {
-        Some(step) => (step, "scene's step"),
-        None => (shortest / f64::from(time.steps_per_contact), "contact duration"),
+        Some(step) if !time.adaptive || step < usual => (step, "scene's step"),
+        _ => (usual, "contact duration"),
     };
     if step > coarsest * (1.0 + 1e-9) {
         report.problem(
@@ -71,8 +75,16 @@ pub fn of_grains(
         }
     }
     let mend = "raise `fps`, make grains.spring softer, or lower grains.damping and grains.shear";
+    let adaptive = time.adaptive.then_some(StepLimits {
+        constant: (step, limited_by),
+        way: GRAIN_SHARE * radius,
+        fall: GRAIN_SHARE * radius,
+        sound_speed: 0.0,
+        expected_speed: 0.0,
+    });
     Time {
         contact_duration: Some(shortest),
+        adaptive,
         ..fit_frames(time, frames, step, limited_by, mend, report)
     }
 }
@@ -85,8 +97,8 @@ pub fn of_fluid(time: &model::Time, frames: u32, fluid: &Fluid, gravity: f64, re
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .expect("there are four limits");
     let (step, limited_by) = match time.step {
-        Some(step) => (step, "scene's step"),
-        None => (shortest, limit),
+        Some(step) if !time.adaptive || step < shortest => (step, "scene's step"),
+        _ => (shortest, limit),
     };
     if step > shortest * (1.0 + 1e-9) {
         report.notes.push(format!(
@@ -96,7 +108,10 @@ pub fn of_fluid(time: &model::Time, frames: u32, fluid: &Fluid, gravity: f64, re
         ));
     }
     let mend = "raise `fps`, lower fluid.sound_speed, or raise fluid.spacing";
-    fit_frames(time, frames, step, limited_by, mend, report)
+    Time {
+        adaptive: time.adaptive.then(|| fluid.adaptive_limits(gravity, time.step)),
+        ..fit_frames(time, frames, step, limited_by, mend, report)
+    }
 }
 
 /// A whole number of steps no longer than `step` makes one frame.
@@ -129,5 +144,6 @@ fn fit_frames(
         integrator: time.integrator,
         contact_duration: None,
         limited_by,
+        adaptive: None,
     }
 }

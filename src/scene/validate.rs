@@ -60,7 +60,7 @@ pub(super) fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Prob
             };
             (
                 Matter::Grains(grains),
-                time::of_grains(&file.time, frames, &contacts, mass, &mut report),
+                time::of_grains(&file.time, frames, &contacts, mass, given.radius, &mut report),
             )
         }
         (None, given) => {
@@ -272,6 +272,18 @@ fn neighbors(file: &SceneFile, frame: &Frame, report: &mut Report) -> Neighbors 
             match given.storage {
                 Storage::Pool => "choose another storage than `pool`, or set neighbors.skin to 0.1",
                 _ => "leave it out, or set it to 0.1",
+            },
+        );
+    }
+    if file.time.adaptive && neighbors.skin <= 0.0 {
+        report.problem(
+            "time.adaptive",
+            "adaptive steps need neighbor lists, which neighbors.skin 0 and the storage `pool` leave out",
+            match given.storage {
+                Storage::Pool => {
+                    "choose another storage than `pool`, set neighbors.skin to 0.1, or leave it out"
+                }
+                _ => "leave neighbors.skin out, set it to 0.1, or leave time.adaptive out",
             },
         );
     }

@@ -19,8 +19,12 @@ pub struct Frame {
     pub time: f64,
     /// Steps since the run began.
     pub steps: u64,
-    /// Time step, seconds.
+    /// Length of the steps since the last frame, or their mean, seconds.
     pub step_s: f64,
+    /// What limited most of them.
+    pub step_limited_by: &'static str,
+    /// Where the device chose their lengths.
+    pub adaptive: Option<AdaptiveSteps>,
     pub particles: u32,
     /// How often a particle found its voxel of a pool full, summed over all searches since the last frame.
     pub overflow: u64,
@@ -38,6 +42,16 @@ pub struct Frame {
     pub voxels: Option<Voxels>,
     /// Label and milliseconds of the passes of one step and of the frame's own passes, where they were timed.
     pub pass_ms: Vec<(String, f64)>,
+}
+
+/// Steps since the last frame, each of a length of its own.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct AdaptiveSteps {
+    /// Seconds.
+    pub shortest_s: f64,
+    pub longest_s: f64,
+    /// How many steps each term limited, the terms that limited none left out.
+    pub limited_by: Vec<(&'static str, u32)>,
 }
 
 /// Where the search has voxels in memory, and how full they are.
@@ -71,6 +85,20 @@ pub struct Statistics {
     pub voxels_with_more: u32,
     /// Particles that found no slot in the search for this frame.
     pub overflow: u32,
+}
+
+impl AdaptiveSteps {
+    /// Seconds, with so many frames a second.
+    pub(super) fn mean_s(&self, fps: f64) -> f64 {
+        let steps: u32 = self.limited_by.iter().map(|(_, steps)| steps).sum();
+        1.0 / (fps * f64::from(steps))
+    }
+
+    /// What limited most of them.
+    pub(super) fn usual_limit(&self) -> &'static str {
+        let most = self.limited_by.iter().max_by_key(|(_, steps)| *steps);
+        most.map_or("", |(name, _)| name)
+    }
 }
 
 impl Statistics {

@@ -45,6 +45,11 @@ impl Simulation {
             if listed {
                 self.note_searches(step)?;
             }
+            if self.scene.time.adaptive.is_some() {
+                self.pace = self.read_one("pace")?;
+                self.submitted = step.into();
+                return self.refuse_to_stall();
+            }
             let missing = self
                 .submitted
                 .checked_sub(step.into())

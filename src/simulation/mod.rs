@@ -1,8 +1,10 @@
 //! Executes a plan: steps, frames, and what comes back of them.
 
+mod casualty;
 pub mod frame;
 mod growth;
 mod neighbor_lists;
+mod pace;
 mod particles;
 pub mod passes;
 mod rounds;
@@ -13,19 +15,19 @@ use std::collections::BTreeMap;
 
 use glam::Vec3;
 
-pub use frame::{ColumnData, Frame, Statistics, Values, Voxels};
+pub use frame::{AdaptiveSteps, ColumnData, Frame, Statistics, Values, Voxels};
 pub use neighbor_lists::{NeighborCounts, NeighborLists, PairQuery};
 pub use state::State;
 
-use crate::error::{Casualty, Error, Result};
+use crate::error::Result;
 use crate::gpu::readback::Ring;
 use crate::gpu::timing::Timer;
 use crate::gpu::{Buffers, Gpu};
 use crate::neighbors::layout::SearchState;
 use crate::neighbors::{Grid, boxes, lists};
 use crate::physics::collider::offset_at;
-use crate::physics::layout::{Clock, Guard, Occupancy, Overflow, Parameters, Sums};
-use crate::physics::{dem, fluid};
+use crate::physics::layout::{Clock, Guard, Occupancy, Overflow, Pace, Parameters, Sums};
+use crate::physics::{self, dem, fluid};
 use crate::plan::Plan;
 use crate::render::Renderer;
 use crate::scene::{self, Action, Matter, Scene};
@@ -60,6 +62,8 @@ pub struct Simulation {
     happened: usize,
     /// Steps that were submitted since the run began.
     submitted: u64,
+    /// Of adaptive steps, as the device left it.
+    pace: Pace,
     /// How often the grid's buffers were made larger since the last frame was sent.
     growths: u32,
     /// Steps that searched, as the device counts them, now and when the last frame was sent.
@@ -114,6 +118,7 @@ impl Simulation {
             contact: scene.grains().map(|grains| grains.contact),
             happened: 0,
             submitted: 0,
+            pace: pace::at_start(scene),
             growths: 0,
             searches: [0; 2],
             served: rounds::USUALLY_SERVED,
@@ -159,6 +164,9 @@ impl Simulation {
         }
         if buffers.contains("clamp_walls") {
             buffers.write(gpu, "clamp_walls", 0, &[dem::clamp_walls(scene)])?;
+        }
+        if let Some(limits) = &scene.time.adaptive {
+            buffers.write(gpu, "pace_limits", 0, &[physics::pace::limits(scene, limits)])?;
         }
         if buffers.contains("measure") {
             let measure = match &scene.matter {
@@ -220,10 +228,10 @@ impl Simulation {
             self.add_particles(&self.scene.particles.clone(), Some(&walls))?;
             self.write_parameters(self.scene.time.step)?;
         } else {
-            let time = self.scene.time;
+            self.pace.begin_frame();
             for segment in segments(&self.scene, index - 1) {
                 self.begin_segment(&segment)?;
-                self.run_steps(segment.steps, segment.end == time.steps_per_frame)?;
+                self.run_segment(&segment)?;
             }
         }
         self.next_frame += 1;
@@ -256,7 +264,8 @@ impl Simulation {
         if changed {
             self.write_parameters(self.scene.time.step)?;
         }
-        self.place_obstacles(segment)
+        self.place_obstacles(segment)?;
+        self.pace_segment(segment)
     }
 
     /// Sets moving obstacles on their way through a segment.
@@ -301,16 +310,16 @@ impl Simulation {
         self.submit(&[&self.passes.start])
     }
 
-    /// Runs steps; a frame's last one is timed pass by pass where times are wanted.
-    fn run_steps(&mut self, steps: u32, ends_frame: bool) -> Result<()> {
+    /// Runs a segment's steps; a frame's last one is timed pass by pass where times are wanted.
+    fn run_segment(&mut self, segment: &Segment) -> Result<()> {
         if self.count == 0 {
             return Ok(());
         }
-        let timed = ends_frame && self.timer.is_some();
+        let timed = segment.ends_frame && self.timer.is_some();
         if lists::wanted(&self.scene) {
-            return self.run_listed_steps(steps, timed);
+            return self.run_listed_steps(segment, timed);
         }
-        self.submit_steps(u64::from(steps - u32::from(timed)))?;
+        self.submit_steps(u64::from(segment.steps - u32::from(timed)))?;
         self.settle()?;
         if timed {
             self.submitted += 1;
@@ -460,6 +469,9 @@ impl Simulation {
             ("guard", Guard::LAYOUT.size as u64),
             ("clock", Clock::LAYOUT.size as u64),
         ];
+        if self.buffers.contains("pace") {
+            parts.push(("pace", Pace::LAYOUT.size as u64));
+        }
         if self.plan.wanted.statistics {
             parts.push(("sums", Sums::LAYOUT.size as u64));
             parts.push(("occupancy_count", Occupancy::LAYOUT.size as u64));
@@ -496,11 +508,14 @@ impl Simulation {
             by_name.insert(*name, &bytes[offset..end]);
             offset = end;
         }
+        let clock: Clock = bytemuck::pod_read_unaligned(by_name["clock"]);
+        let pace = by_name
+            .get("pace")
+            .map(|bytes| bytemuck::pod_read_unaligned(bytes));
         let guard: Guard = bytemuck::pod_read_unaligned(by_name["guard"]);
         if guard.count > 0 {
-            return Err(self.casualty(&guard));
+            return Err(self.casualty(&guard, pending.index, clock.step, pace.as_ref()));
         }
-        let clock: Clock = bytemuck::pod_read_unaligned(by_name["clock"]);
         let overflow = by_name
             .get("overflow")
             .map_or_else(Overflow::default, |b| bytemuck::pod_read_unaligned(b));
@@ -509,11 +524,19 @@ impl Simulation {
             let occupancy: Occupancy = bytemuck::pod_read_unaligned(by_name["occupancy_count"]);
             Statistics::new(&self.scene, pending.particles, sums, occupancy, overflow)
         });
+        let time = &self.scene.time;
+        let adaptive = self.adaptive_steps(pace.as_ref());
         Ok(Frame {
             index: pending.index,
-            time: f64::from(pending.index) / self.scene.time.fps,
+            time: f64::from(pending.index) / time.fps,
             steps: u64::from(clock.step),
-            step_s: self.scene.time.step,
+            step_s: adaptive
+                .as_ref()
+                .map_or(time.step, |steps| steps.mean_s(time.fps)),
+            step_limited_by: adaptive
+                .as_ref()
+                .map_or(time.limited_by, AdaptiveSteps::usual_limit),
+            adaptive,
             particles: pending.particles,
             overflow: u64::from(overflow.since_last_frame),
             quarantined: pending.quarantined,
@@ -529,60 +552,5 @@ impl Simulation {
             }),
             pass_ms: pending.pass_ms,
         })
-    }
-
-    /// The error that tells of a particle that the guard caught.
-    fn casualty(&self, guard: &Guard) -> Error {
-        let time = self.scene.time;
-        let local = Vec3::new(guard.position[0], guard.position[1], guard.position[2]);
-        let position = local.as_dvec3() + self.scene.origin;
-        let velocity = [guard.velocity[0], guard.velocity[1], guard.velocity[2]];
-        let speed = velocity.iter().map(|v| v * v).sum::<f32>().sqrt();
-        let fluid = self.scene.fluid().is_some();
-        let radii = f64::from(speed) * time.step / self.scene.radius();
-        let (what, likely_cause) = match guard.kind {
-            1 => (
-                "a particle's position or velocity is not a finite number",
-                if fluid {
-                    format!(
-                        "the time step of {:.3e} s is too long for the fluid's speed; raise fluid.max_speed or lower \
-                         time.step",
-                        time.step
-                    )
-                } else {
-                    format!(
-                        "the time step of {:.3e} s is too long for the contact's stiffness or damping; \
-                         lower time.step or raise time.steps_per_contact",
-                        time.step
-                    )
-                },
-            ),
-            _ => (
-                "a particle left the domain through a closed side",
-                format!(
-                    "it moved {radii:.2} radii in a step of {:.3e} s, or was pressed through the wall; \
-                     {}, lower time.step, or open that side",
-                    time.step,
-                    if fluid {
-                        "raise fluid.max_speed"
-                    } else {
-                        "raise grains.spring"
-                    }
-                ),
-            ),
-        };
-        let (frame, step) = self.restored;
-        let since = guard.step - step;
-        Error::Guard(Box::new(Casualty {
-            frame: frame + since / time.steps_per_frame + 1,
-            step: u64::from(guard.step),
-            time: f64::from(frame) / time.fps + f64::from(since) * time.step,
-            id: guard.id,
-            position: position.to_array(),
-            velocity,
-            count: guard.count,
-            what: what.into(),
-            likely_cause,
-        }))
     }
 }

@@ -86,8 +86,12 @@ impl Simulation {
             }
         }
         self.count += all as u32;
+        if let Some(limits) = &self.scene.time.adaptive {
+            let speeds = free.velocity.iter().map(|v| v.length());
+            self.pace.heed(limits, speeds.fold(0.0, f32::max));
+        }
         // With a time step of zero, the passes behind the search find accelerations and leave velocities alone.
-        self.write_parameters(0.0)?;
+        self.hold()?;
         self.gpu.queue.submit([encoder.finish()]);
         self.search()?;
         self.settle()

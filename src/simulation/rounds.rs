@@ -3,6 +3,7 @@
 //! (`shaders/storage/lists/decide.wgsl`), so how long rounds are changes no bit.
 
 use super::passes::Step;
+use super::segments::Segment;
 use super::{STEPS_PER_SUBMISSION, Simulation};
 use crate::error::Result;
 use crate::neighbors::layout::ListState;
@@ -12,6 +13,8 @@ pub(super) const USUALLY_SERVED: f64 = 8.0;
 /// Rounds have room for so many times the steps that lists serve on average: a step that is left out is cheaper than a
 /// search that is.
 const ROOM: f64 = 1.25;
+/// Adaptive steps that are submitted before the host looks how long they are by then.
+const MOST_AHEAD: u64 = 1024;
 
 /// Entry of `dispatch`: [`crate::gpu::Items::MovingParticles`].
 const MOVING: usize = 6;
@@ -19,14 +22,22 @@ const MOVING: usize = 6;
 const LAST_STEP: usize = 4;
 
 impl Simulation {
-    /// Runs so many steps to their end; where they are timed, the last two pass by pass.
-    pub(super) fn run_listed_steps(&mut self, steps: u32, timed: bool) -> Result<()> {
+    /// Runs a segment to its end; where it is timed, the last two steps pass by pass.
+    pub(super) fn run_listed_steps(&mut self, segment: &Segment, timed: bool) -> Result<()> {
         let before = self.searches[0];
-        let timed = if timed { 2.min(steps) } else { 0 };
-        self.submit_steps(u64::from(steps - timed))?;
-        self.settle()?;
+        let (timed, first) = (if timed { 2 } else { 0 }, self.submitted);
+        let fixed_end = self.submitted + u64::from(segment.steps);
+        // Of adaptive steps nobody knows yet how many there will be.
+        let left = |simulation: &Self| match simulation.scene.time.adaptive {
+            Some(_) => simulation.pace.steps_left().min(MOST_AHEAD),
+            None => fixed_end - simulation.submitted,
+        };
+        while left(self) > timed {
+            self.submit_steps(left(self) - timed)?;
+            self.settle()?;
+        }
         let mut times = Vec::new();
-        for _ in 0..timed {
+        while left(self) > 0 {
             self.submitted += 1;
             self.begin_steps()?;
             let (step, search) = (self.time(&self.passes.step)?, self.time(&self.passes.start)?);
@@ -35,7 +46,8 @@ impl Simulation {
         }
         // The last step searches; the one before most likely does not, and then particles are taken back.
         if let (Some((kept, back)), Some((step, search))) = (times.first(), times.last()) {
-            let share = f64::from(self.searches[0].wrapping_sub(before)) / f64::from(steps);
+            let steps = self.submitted - first;
+            let share = f64::from(self.searches[0].wrapping_sub(before)) / steps as f64;
             let mixed = step
                 .iter()
                 .zip(kept)

@@ -2,12 +2,15 @@
 
 use crate::scene::Scene;
 
+/// Cuts that are nearer than this share of an adaptive step are one.
+const NEAREST: f64 = 1e-3;
+
 /// Some steps of a frame between which the host changes nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Segment {
+    /// Where steps are adaptive, about so many.
     pub steps: u32,
-    /// Steps of the frame done when the segment ends.
-    pub end: u32,
+    pub ends_frame: bool,
     /// Seconds.
     pub start_time: f64,
     pub end_time: f64,
@@ -27,34 +30,39 @@ pub fn happened(scene: &Scene, frame: u32) -> usize {
 /// The segments of the frame interval that begins at frame `interval`.
 pub fn segments(scene: &Scene, interval: u32) -> Vec<Segment> {
     let time = scene.time;
+    let steps = f64::from(time.steps_per_frame);
     let begin = f64::from(interval) / time.fps;
-    let time_of = |step: u32| begin + f64::from(step) * time.step;
-    // The first step of this interval that starts at `at` or later; `None` outside the interval.
-    let step_at = |at: f64| {
-        let step = ((at - begin) / time.step - 1e-6).ceil();
-        (step < f64::from(time.steps_per_frame)).then_some(step.max(0.0) as u32)
+    // When something that is due at `at` happens, in steps since the frame before: with the first step that starts then
+    // or later, or exactly then; `None` outside the interval.
+    let place_of = |at: f64| {
+        let place = (at - begin) / time.step;
+        let place = match time.adaptive {
+            None => (place - 1e-6).ceil(),
+            Some(_) if place < NEAREST => 0.0,
+            Some(_) => place,
+        };
+        (place <= steps - NEAREST).then_some(place.max(0.0))
     };
     let corners = scene.colliders.iter().flat_map(|c| &c.path).map(|(at, _)| *at);
     let events = scene.schedule.iter().map(|scheduled| scheduled.time);
-    let mut cuts: Vec<u32> = corners.chain(events).filter_map(step_at).collect();
-    cuts.extend([0, time.steps_per_frame]);
-    cuts.sort_unstable();
-    cuts.dedup();
-    let due = |step: u32| {
-        let is_due = |at: f64| step_at(at).is_some_and(|s| s <= step);
+    let mut cuts: Vec<f64> = corners.chain(events).filter_map(place_of).collect();
+    cuts.extend([0.0, steps]);
+    cuts.sort_by(f64::total_cmp);
+    cuts.dedup_by(|later, earlier| *later - *earlier < NEAREST);
+    let due = |cut: f64| {
+        let is_due = |at: f64| place_of(at).is_some_and(|place| place < cut + NEAREST);
         scene
             .schedule
             .iter()
             .take_while(|scheduled| is_due(scheduled.time))
             .count()
     };
-    cuts.windows(2)
-        .map(|pair| Segment {
-            steps: pair[1] - pair[0],
-            end: pair[1],
-            start_time: time_of(pair[0]),
-            end_time: time_of(pair[1]),
-            events_before: due(pair[0]),
-        })
-        .collect()
+    let segment = |from: f64, to: f64| Segment {
+        steps: (to - from).ceil() as u32,
+        ends_frame: to == steps,
+        start_time: begin + from * time.step,
+        end_time: begin + to * time.step,
+        events_before: due(from),
+    };
+    cuts.windows(2).map(|pair| segment(pair[0], pair[1])).collect()
 }

@@ -13,7 +13,7 @@ use crate::gpu::readback;
 use crate::neighbors::Grid;
 use crate::neighbors::layout::ListState;
 use crate::physics::dem;
-use crate::physics::layout::{Clock, Overflow};
+use crate::physics::layout::{Clock, Overflow, Pace};
 use crate::plan::Plan;
 use crate::scene::model::Axis;
 use crate::scene::{Action, Dimensions, Scene};
@@ -162,6 +162,7 @@ impl Simulation {
         });
         let counters = [
             ("clock", Clock::LAYOUT.size),
+            ("pace", Pace::LAYOUT.size),
             ("overflow", Overflow::LAYOUT.size),
             ("grid", Grid::LAYOUT.size),
         ];
@@ -207,10 +208,12 @@ impl Simulation {
         if let Some(bytes) = state.buffer("clock") {
             clock = bytemuck::pod_read_unaligned(bytes);
         }
-        if let (true, Some(last)) = (self.plan.obstacles.moving, last) {
+        let counted = self.plan.obstacles.moving && self.scene.time.adaptive.is_none();
+        if let (true, Some(last)) = (counted, last) {
             clock.step_in_segment = last.steps;
         }
         self.restored = (state.frame, clock.step);
+        self.restore_pace(state);
         self.submitted = u64::from(clock.step);
         self.last_look = clock.step;
         self.buffers.write(&self.gpu, "clock", 0, &[clock])?;
@@ -233,7 +236,7 @@ impl Simulation {
         }
         self.take_grid(state)?;
         if self.count > 0 {
-            self.write_parameters(0.0)?;
+            self.hold()?;
             self.search()?;
             self.settle()?;
         }
@@ -243,9 +246,23 @@ impl Simulation {
         for (name, _) in PARTICLE_BUFFERS {
             self.put(name, state.buffer(name))?;
         }
+        self.restore_pace(state);
+        self.write_pace()?;
         self.put("overflow", Some(bytemuck::bytes_of(&Overflow::default())))?;
         self.put("overflow", state.buffer("overflow"))?;
         self.write_parameters(self.scene.time.step)
+    }
+
+    /// Takes the length of the last adaptive step; one that begins anew where the state has none.
+    fn restore_pace(&mut self, state: &State) {
+        if let Some(limits) = &self.scene.time.adaptive {
+            let speeds = state.vectors("velocity").unwrap_or_default();
+            let fastest = speeds.iter().map(|v| v.length()).fold(0.0, f32::max);
+            self.pace = match state.buffer("pace") {
+                Some(bytes) => bytemuck::pod_read_unaligned(bytes),
+                None => Pace::new(&self.scene, limits, fastest),
+            };
+        }
     }
 
     /// Takes the room and the direction of the grid that the state was made with, so that it grows when that would

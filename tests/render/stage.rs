@@ -69,6 +69,7 @@ pub fn scene(dimensions: Dimensions, min: Vec3, max: Vec3, radius: f64, size: [u
             integrator: Integrator::SymplecticEuler,
             contact_duration: None,
             limited_by: "",
+            adaptive: None,
         },
         render: Render {
             size,

@@ -3,7 +3,11 @@
 #import common/parameters
 #import physics/dem/law
 #if moving_colliders
+#if adaptive_step
+#import physics/pace
+#else
 #import physics/clock
+#end
 #end
 
 struct Collider {
@@ -128,7 +132,11 @@ fn with_colliders(before: ContactSum, x: Vector, v: Vector) -> ContactSum {
         let collider = colliders[c];
         var offset = first(collider.offset);
 #if moving_colliders
+#if adaptive_step
+        offset += first(collider.velocity) * segment_time();
+#else
         offset += first(collider.velocity) * (f32(clock.step_in_segment) * parameters.time_step);
+#end
 #end
         let nearest = nearest_on(collider, x - offset);
         if nearest.distance < radius {

@@ -1,8 +1,13 @@
 // First half of a velocity Verlet step (see velocity_verlet.wgsl): positions move, velocities are predicted.
+#flag moves
 #import common/thread
 #import common/parameters
 #import physics/guard
+#import physics/time_step
 #import physics/next
+#if adaptive_step
+#import physics/extremes
+#end
 #if clamp_walls
 #import physics/clamp_walls
 #end
@@ -16,7 +21,7 @@ fn drift(thread: Thread) {
     if i >= parameters.particle_count {
         return;
     }
-    let dt = parameters.time_step;
+    let dt = time_step();
     let x = unpack(position[i]);
     let a = unpack(acceleration[i]);
     var v = unpack(velocity[i]) + dt * a;
@@ -26,5 +31,8 @@ fn drift(thread: Thread) {
 #end
     watch(id[i], clock.step, x, &moved, &v);
     leave(i, moved, v);
+#if adaptive_step
+    note_extremes(a, length(v), 0.0);
+#end
     next_acceleration[i] = acceleration[i];
 }

@@ -1,6 +1,7 @@
 // Density and pressure of each particle of the fluid.
 #flag writes_state
 #import common/thread
+#import physics/time_step
 #import physics/fluid/pairs
 #import physics/fluid/material
 #import physics/fluid/state
@@ -108,7 +109,7 @@ fn find_density(thread: Thread) {
 #end
 #end
 #if continuity
-    var e = before + parameters.time_step * (fluid.diffusion * diffused - (1.0 + before) * divergence);
+    var e = before + time_step() * (fluid.diffusion * diffused - (1.0 + before) * divergence);
 #if clamped_pressure
     // Torn fluid keeps close to rest density: it would have to be pressed together again before a wall could hold it.
     e = max(e, fluid.lowest_excess);

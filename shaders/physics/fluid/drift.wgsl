@@ -1,5 +1,7 @@
 // First half of a velocity Verlet step (see velocity_verlet.wgsl): positions move, velocities are predicted.
+#flag moves
 #import common/thread
+#import physics/time_step
 #import physics/guard
 #import physics/fluid/pairs
 #import physics/fluid/material
@@ -7,6 +9,9 @@
 #import physics/fluid/next
 #if rim
 #import physics/fluid/rim
+#end
+#if adaptive_step
+#import physics/fluid/note
 #end
 #if boundary_particles
 #import physics/fluid/wall_motion
@@ -21,7 +26,7 @@ fn drift_fluid(thread: Thread) {
     if i >= parameters.particle_count {
         return;
     }
-    let dt = parameters.time_step;
+    let dt = time_step();
     let x = unpack(position[i]);
     let excess = fluid_state[i].x;
     next_acceleration[i] = acceleration[i];
@@ -40,4 +45,7 @@ fn drift_fluid(thread: Thread) {
 #end
     watch(id[i], clock.step, x, &moved, &v);
     leave_fluid(i, moved, v, excess);
+#if adaptive_step
+    note_fluid(a, v, excess);
+#end
 }

@@ -1,4 +1,5 @@
 // Forces on a particle of the fluid. Knows nothing of the grid behind `<candidates>`.
+#import physics/time_step
 #import physics/fluid/pairs
 #import physics/fluid/material
 #import physics/fluid/state
@@ -192,7 +193,7 @@ fn forces_on(i: u32) -> Forces {
 #end
     forces.acceleration = first(parameters.gravity) + (push + drag) / density;
 #if shifting
-    let wanted = -(parameters.time_step * fluid.shifting) * crowd;
+    let wanted = -(time_step() * fluid.shifting) * crowd;
     forces.shift = wanted * min(1.0, fluid.shift_limit / max(length(wanted), 1e-30));
     forces.velocity_slope = velocity_slope;
     forces.excess_slope = excess_slope;

@@ -1,10 +1,15 @@
 // Forces, then symplectic Euler (Rojas 2013, Eq. 7).
+#flag moves
 #import common/thread
+#import physics/time_step
 #import physics/guard
 #import physics/fluid/forces
 #import physics/fluid/next
 #if rim
 #import physics/fluid/rim
+#end
+#if adaptive_step
+#import physics/fluid/note
 #end
 #if boundary_particles
 #import physics/fluid/wall_motion
@@ -16,18 +21,19 @@ fn move_fluid(thread: Thread) {
     if i >= parameters.particle_count {
         return;
     }
+    let dt = time_step();
     let x = unpack(position[i]);
     var excess = fluid_state[i].x;
 #if boundary_particles
     if is_wall(i) {
         let v = wall_velocity(i);
-        leave_fluid(i, wrapped(x + parameters.time_step * v.motion), v.motion + v.surface, excess);
+        leave_fluid(i, wrapped(x + dt * v.motion), v.motion + v.surface, excess);
         return;
     }
 #end
     let forces = forces_on(i);
-    var v = unpack(velocity[i]) + parameters.time_step * forces.acceleration;
-    var moved = x + parameters.time_step * v;
+    var v = unpack(velocity[i]) + dt * forces.acceleration;
+    var moved = x + dt * v;
 #if shifting
     moved += forces.shift;
     v += forces.velocity_slope * forces.shift;
@@ -39,4 +45,7 @@ fn move_fluid(thread: Thread) {
 #end
     watch(id[i], clock.step, x, &moved, &v);
     leave_fluid(i, moved, v, excess);
+#if adaptive_step
+    note_fluid(forces.acceleration, v, excess);
+#end
 }

@@ -9,6 +9,9 @@
 #import cells/grid
 #import cells/growth
 #import physics/clock
+#if adaptive_step
+#import physics/pace
+#end
 #import storage/lists/state
 
 // Arguments of an indirect dispatch: whether the passes that lay out the grid run.
@@ -25,9 +28,23 @@ fn set_search(runs: bool) {
     search_dispatch = vec4u(u32(runs), 1u, 1u, 0u);
 }
 
+#if adaptive_step
+fn steps_are_left() -> bool {
+    return clock.step != list_state.last_step && pace.left != 0u && pace.stalled == 0u;
+}
+
+fn frame_ends() -> bool {
+    return pace.left == 0u && pace.ends_frame != 0u;
+}
+#else
 fn steps_are_left() -> bool {
     return clock.step != list_state.last_step;
 }
+
+fn frame_ends() -> bool {
+    return (clock.step - list_state.first_step) % grid.frame_steps == 0u;
+}
+#end
 
 // Whether the recorded step that this pass belongs to moved particles.
 fn has_moved() -> bool {
@@ -39,7 +56,7 @@ fn has_moved() -> bool {
 }
 
 fn decide_search() {
-    let due = atomicLoad(&list_state.moved) != 0u || (clock.step - list_state.first_step) % grid.frame_steps == 0u;
+    let due = atomicLoad(&list_state.moved) != 0u || frame_ends();
     let returned = dispatch[DISPATCH_RETURNING].x != 0u;
     let goes_on = !due && steps_are_left();
     atomicStore(&list_state.moved, 0u);

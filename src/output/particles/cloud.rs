@@ -79,6 +79,8 @@ pub mod samples {
             time: 0.1,
             steps: 30,
             step_s: 1e-3,
+            step_limited_by: "",
+            adaptive: None,
             particles: 2,
             overflow: 0,
             quarantined: 0,

@@ -70,7 +70,16 @@ pub const GROUPS: &[Group] = &[
     Group {
         name: "time_step",
         title: "time step",
-        curves: &[("step_s", "time step, s")],
+        curves: &[
+            ("step_s", "time step, s"),
+            ("step_min_s", "shortest since the last frame, s"),
+            ("step_max_s", "longest, s"),
+        ],
+    },
+    Group {
+        name: STEP_LIMITS,
+        title: "steps by what limited them",
+        curves: &[],
     },
     Group {
         name: PASSES,
@@ -83,6 +92,8 @@ pub const GROUPS: &[Group] = &[
 pub const PARTICLE_STEPS_PER_S: &str = "particle_steps_per_s";
 /// The group that has one curve a pass.
 pub const PASSES: &str = "passes";
+/// The group that has one curve a term that limits adaptive steps.
+pub const STEP_LIMITS: &str = "step_limits";
 /// Where a frame stands in the run, which the timelines show.
 const PLACE: &[&str] = &["frame", "time_s", "steps"];
 
@@ -116,6 +127,11 @@ pub fn curves(figures: &Map<String, Value>) -> Vec<Curves> {
             Value::Object(passes) if key == "pass_ms" => {
                 for (pass, ms) in passes {
                     add(PASSES, pass, ms.as_f64().unwrap_or(f64::NAN));
+                }
+            }
+            Value::Object(limits) if key == "steps_limited_by" => {
+                for (limit, steps) in limits {
+                    add(STEP_LIMITS, limit, steps.as_f64().unwrap_or(f64::NAN));
                 }
             }
             _ => {}

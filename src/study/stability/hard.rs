@@ -22,7 +22,14 @@ const FALL: f64 = 1e-4;
 const GAIN: f64 = 0.02;
 
 type Outcome = std::result::Result<(), String>;
-type Case = fn(&Bench, Method, u32) -> Result<Outcome>;
+type Case = fn(&Bench, Tried, u32) -> Result<Outcome>;
+
+/// A solver with steps of one length or with adaptive ones.
+#[derive(Clone, Copy)]
+struct Tried {
+    method: Method,
+    adaptive: bool,
+}
 
 const CASES: [(&str, Case); 4] = [
     ("coincident particles", coincident),
@@ -34,7 +41,7 @@ const CASES: [(&str, Case); 4] = [
 pub fn cases(page: &mut Page, bench: &Bench, scale: &Scale, failures: &mut Failures) -> Result<()> {
     page.heading("Hard cases");
     page.paragraph(format!(
-        "{} steps of the scene's own length each. *Coincident*: one of the particles of a block of 8 × 8 begins where \
+        "As long as {} steps of the scene's own length, with such steps and with adaptive ones. *Coincident*: one of the particles of a block of 8 × 8 begins where \
          another is; it holds where they come apart by {} spacings. *Isolated*: a single particle falls; its way is off \
          by at most {} of itself from what the integrator gives exactly. *Lattice*: no gravity, nothing to do; at most {} of \
          the expected speed. *Impact*: a block of 8 × 8 hits the floor at ten times the speed that the speed of \
@@ -45,24 +52,26 @@ pub fn cases(page: &mut Page, bench: &Bench, scale: &Scale, failures: &mut Failu
         shown(STILL),
         shown(GAIN),
     ));
-    let mut table = Table::new(["solver", "case", "verdict"]);
+    let mut table = Table::new(["solver", "case", "fixed steps", "adaptive steps"]);
     for method in FLUIDS.into_iter().chain(GRAINS) {
         progress(&format!("stability: hard cases of {}", method.name()));
         for (name, case) in CASES {
-            let outcome = case(bench, method, scale.short)?;
-            table.row([
-                Cell::text(method.name()),
-                Cell::text(name),
-                failures.verdict(&format!("{}, {name}", method.name()), &outcome),
-            ]);
+            let mut row = vec![Cell::text(method.name()), Cell::text(name)];
+            for (adaptive, steps) in [(false, "fixed steps"), (true, "adaptive steps")] {
+                let outcome = case(bench, Tried { method, adaptive }, scale.short)?;
+                row.push(failures.verdict(&format!("{}, {name}, {steps}", method.name()), &outcome));
+            }
+            table.row(row);
         }
     }
     page.table("hard", &table);
     Ok(())
 }
 
-fn coincident(bench: &Bench, method: Method, steps: u32) -> Result<Outcome> {
-    let mut scene = method.scene(block([0.4, 0.0], 8, 8), |file| expect(file, method))?;
+fn coincident(bench: &Bench, tried: Tried, steps: u32) -> Result<Outcome> {
+    let mut scene = tried
+        .method
+        .scene(block([0.4, 0.0], 8, 8), |file| tried.expect(file))?;
     scene.particles.position[27] = scene.particles.position[28];
     Ok(run(bench, &scene, steps, 1).and_then(|trial| {
         let apart = trial.last.position[27].distance(trial.last.position[28]);
@@ -74,9 +83,9 @@ fn coincident(bench: &Bench, method: Method, steps: u32) -> Result<Outcome> {
     }))
 }
 
-fn isolated(bench: &Bench, method: Method, steps: u32) -> Result<Outcome> {
-    let mut scene = method.scene(block([0.5, 0.5], 1, 1), |file| {
-        expect(file, method);
+fn isolated(bench: &Bench, tried: Tried, steps: u32) -> Result<Outcome> {
+    let mut scene = tried.method.scene(block([0.5, 0.5], 1, 1), |file| {
+        tried.expect(file);
         file["domain"]["walls"] = "open".into();
     })?;
     scene.particles.velocity[0] = glam::Vec3::ZERO;
@@ -85,7 +94,7 @@ fn isolated(bench: &Bench, method: Method, steps: u32) -> Result<Outcome> {
         let gravity = f64::from(scene.gravity.length());
         // Symplectic Euler falls by half a step more.
         let ahead = match scene.time.integrator {
-            Integrator::SymplecticEuler => scene.time.step,
+            Integrator::SymplecticEuler => trial.moments.last().map_or(f64::NAN, |m| m.step),
             Integrator::VelocityVerlet => 0.0,
         };
         let expected = gravity * time * (time + ahead) / 2.0;
@@ -98,12 +107,12 @@ fn isolated(bench: &Bench, method: Method, steps: u32) -> Result<Outcome> {
     }))
 }
 
-fn lattice(bench: &Bench, method: Method, steps: u32) -> Result<Outcome> {
-    let scene = method.scene(block([0.0; 2], 20, 20), |file| {
-        expect(file, method);
+fn lattice(bench: &Bench, tried: Tried, steps: u32) -> Result<Outcome> {
+    let scene = tried.method.scene(block([0.0; 2], 20, 20), |file| {
+        tried.expect(file);
         file["domain"]["max"] = json!([20.0 * SPACING, 20.0 * SPACING]);
         file["gravity"] = json!([0, 0]);
-        if method.is_fluid() {
+        if tried.method.is_fluid() {
             file["domain"]["walls"] = "periodic".into();
         }
     })?;
@@ -116,10 +125,10 @@ fn lattice(bench: &Bench, method: Method, steps: u32) -> Result<Outcome> {
     }))
 }
 
-fn impact(bench: &Bench, method: Method, steps: u32) -> Result<Outcome> {
+fn impact(bench: &Bench, tried: Tried, steps: u32) -> Result<Outcome> {
     let mut body = block([0.4, SPACING], 8, 8);
     body["velocity"] = json!([0, -10.0 * EXPECTED]);
-    let scene: Scene = method.scene(body, |file| expect(file, method))?;
+    let scene: Scene = tried.method.scene(body, |file| tried.expect(file))?;
     // Frames often enough to see a gain.
     Ok(run(bench, &scene, steps.div_ceil(10), 10).and_then(|trial| {
         let first = trial.moments[0].energy();
@@ -137,9 +146,12 @@ fn impact(bench: &Bench, method: Method, steps: u32) -> Result<Outcome> {
     }))
 }
 
-/// The speed that a fluid's sound follows from; grains have theirs in the spring.
-fn expect(file: &mut serde_json::Value, method: Method) {
-    if method.is_fluid() {
-        file["fluid"]["max_speed"] = EXPECTED.into();
+impl Tried {
+    /// The speed that a fluid's sound follows from; grains have theirs in the spring.
+    fn expect(self, file: &mut serde_json::Value) {
+        file["time"]["adaptive"] = self.adaptive.into();
+        if self.method.is_fluid() {
+            file["fluid"]["max_speed"] = EXPECTED.into();
+        }
     }
 }

@@ -63,7 +63,7 @@ pub fn stability(settings: &Settings) -> Result<PathBuf> {
     let scale = scale(settings.size);
     page.paragraph(
         "Small 2D scenes: the longest stable time step beside theory, long rests, and hard cases. Everything that does \
-         not hold its bound is listed at the end. Fluids have steps of fixed length, so an adaptive one is not tried.",
+         not hold its bound is listed at the end.",
     );
     bench.environment(&mut page);
     let mut failures = Failures::default();

@@ -10,6 +10,8 @@ use crate::study::measure::with_steps_per_frame;
 /// Figures of a frame; energies in joules, speeds in m/s.
 pub struct Moment {
     pub time: f64,
+    /// Of the steps before it, seconds; the mean where they are adaptive.
+    pub step: f64,
     pub figures: Statistics,
 }
 
@@ -46,6 +48,7 @@ pub fn run(bench: &Bench, scene: &Scene, steps: u32, frames: u32) -> Result<Tria
         if let Some(figures) = frame.statistics {
             trial.moments.push(Moment {
                 time: frame.time,
+                step: frame.step_s,
                 figures,
             });
         }

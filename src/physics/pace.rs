@@ -1,0 +1,140 @@
+//! Steps whose length the device chooses: what limits them, and how far a segment has come.
+
+use super::layout::{Extremes, Pace, PaceLimits};
+use crate::gpu::{BufferPlan, Variant};
+use crate::scene::{Scene, StepLimits};
+
+/// Flag of every variant with such steps.
+pub const FLAG: &str = "adaptive_step";
+/// Ticks of a segment (`shaders/physics/pace.wgsl`).
+const SEGMENT_TICKS: u32 = 1 << 31;
+/// By how much a step may be longer than wanted where that saves one (`shaders/physics/choose_step.wgsl`).
+const ROUNDING: f32 = 1e-4;
+/// A run whose steps become shorter than this share of the expected one would never end.
+const SHORTEST_SHARE: f64 = 1e-4;
+/// Stands for no limit; safely finite when multiplied, seconds.
+const ENDLESS: f64 = 1e15;
+
+/// The buffers of an adaptive step.
+pub fn plan(scene: &Scene, variant: &mut Variant) -> Vec<BufferPlan> {
+    if scene.time.adaptive.is_none() {
+        return Vec::new();
+    }
+    variant.flag(FLAG, true);
+    vec![
+        BufferPlan::storage("pace", 1, Pace::LAYOUT.size as u64, "time, and lengths of steps"),
+        BufferPlan::storage(
+            "extremes",
+            1,
+            Extremes::LAYOUT.size as u64,
+            "the fastest particle and the greatest acceleration of a step",
+        ),
+        BufferPlan::uniform(
+            "pace_limits",
+            PaceLimits::LAYOUT.size,
+            "what limits the length of a step",
+        ),
+    ]
+}
+
+pub fn limits(scene: &Scene, limits: &StepLimits) -> PaceLimits {
+    PaceLimits {
+        constant: limits.constant.0.min(ENDLESS) as f32,
+        way: limits.way as f32,
+        fall: limits.fall as f32,
+        sound_speed: limits.sound_speed as f32,
+        expected_speed: limits.expected_speed as f32,
+        shortest: (SHORTEST_SHARE * scene.time.step) as f32,
+    }
+}
+
+/// What a step can be limited by, in the order in which the device counts.
+pub fn names(limits: &StepLimits) -> [&'static str; 6] {
+    [
+        "speed of sound",
+        "stiffness",
+        "motion",
+        "acceleration",
+        limits.constant.1,
+        "frame end",
+    ]
+}
+
+impl Pace {
+    /// Before the first step, for which nothing is known but the length that the scene expects and how fast particles
+    /// are, m/s.
+    pub fn new(scene: &Scene, limits: &StepLimits, fastest: f32) -> Self {
+        let mut pace = Self {
+            wanted: scene.time.step as f32,
+            ..Default::default()
+        };
+        pace.heed(limits, fastest);
+        pace
+    }
+
+    /// Lets the next step be no longer than particles of such a speed allow, m/s.
+    pub fn heed(&mut self, limits: &StepLimits, fastest: f32) {
+        let allowed = limits.way / (limits.sound_speed + f64::from(fastest));
+        self.wanted = self.wanted.min(allowed as f32);
+    }
+
+    /// Sets out for the end of a segment of so many seconds.
+    pub fn begin_segment(&mut self, seconds: f64, ends_frame: bool, obstacle_speed: f32) {
+        self.left = SEGMENT_TICKS;
+        self.tick = (seconds / f64::from(SEGMENT_TICKS)) as f32;
+        self.ends_frame = ends_frame.into();
+        self.obstacle_speed = obstacle_speed;
+        self.aim();
+    }
+
+    /// Chooses the next step as the device does: what is left of the segment is cut into equal steps.
+    fn aim(&mut self) {
+        let steps = (self.left as f32 * self.tick / self.wanted - ROUNDING).ceil();
+        self.next_ticks = if steps <= 1.0 {
+            self.left
+        } else {
+            ((self.left as f32 / steps) as u32).max(1)
+        };
+        self.next_step = self.next_ticks as f32 * self.tick;
+    }
+
+    /// Forgets the steps of the frame before.
+    pub fn begin_frame(&mut self) {
+        (self.shortest, self.longest) = (0.0, 0.0);
+        self.made = Default::default();
+    }
+
+    /// Steps until the segment ends, as far as one can tell by the next one.
+    pub fn steps_left(&self) -> u64 {
+        (f64::from(self.left) / f64::from(self.next_ticks.max(1))).ceil() as u64
+    }
+
+    /// Steps since the last frame.
+    pub fn steps(&self) -> u32 {
+        self.made.iter().sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_is_cut_into_equal_steps() {
+        let mut pace = Pace {
+            wanted: 0.03,
+            ..Default::default()
+        };
+        pace.begin_segment(0.1, true, 0.0);
+        assert_eq!(pace.steps_left(), 4);
+        assert!((pace.next_step - 0.025).abs() < 1e-9, "{}", pace.next_step);
+        // No sliver where rounding alone would ask for one more.
+        pace.wanted = 0.1 / 3.0 * (1.0 - 1e-6);
+        pace.begin_segment(0.1, true, 0.0);
+        assert_eq!(pace.steps_left(), 3);
+        // The last step takes what is left, to the tick.
+        pace.left = 12_345;
+        pace.aim();
+        assert_eq!((pace.next_ticks, pace.steps_left()), (12_345, 1));
+    }
+}

@@ -1,0 +1,100 @@
+//! Tells of a particle that the guard caught.
+
+use glam::Vec3;
+
+use super::Simulation;
+use crate::error::{Casualty, Error};
+use crate::physics::layout::{Guard, Pace};
+
+impl Simulation {
+    /// The error that tells of a particle that the guard caught.
+    pub(super) fn casualty(&self, guard: &Guard, index: u32, steps: u32, pace: Option<&Pace>) -> Error {
+        let place = self.place_of(guard.step, index, steps, pace);
+        let local = Vec3::new(guard.position[0], guard.position[1], guard.position[2]);
+        let position = local.as_dvec3() + self.scene.origin;
+        let velocity = [guard.velocity[0], guard.velocity[1], guard.velocity[2]];
+        let speed = velocity.iter().map(|v| v * v).sum::<f32>().sqrt();
+        let fluid = self.scene.fluid().is_some();
+        let radii = f64::from(speed) * place.step / self.scene.radius();
+        let (what, likely_cause) = match guard.kind {
+            1 => (
+                "a particle's position or velocity is not a finite number",
+                if fluid {
+                    format!(
+                        "the time step of {:.3e} s is too long for the fluid's speed; raise fluid.max_speed or lower \
+                         time.step",
+                        place.step
+                    )
+                } else {
+                    format!(
+                        "the time step of {:.3e} s is too long for the contact's stiffness or damping; \
+                         lower time.step or raise time.steps_per_contact",
+                        place.step
+                    )
+                },
+            ),
+            _ => (
+                "a particle left the domain through a closed side",
+                format!(
+                    "it moved {radii:.2} radii in a step of {:.3e} s, or was pressed through the wall; \
+                     {}, lower time.step, or open that side",
+                    place.step,
+                    if fluid {
+                        "raise fluid.max_speed"
+                    } else {
+                        "raise grains.spring"
+                    }
+                ),
+            ),
+        };
+        Error::Guard(Box::new(Casualty {
+            frame: place.frame,
+            step: u64::from(guard.step),
+            time: place.time,
+            id: guard.id,
+            position: position.to_array(),
+            velocity,
+            count: guard.count,
+            what: what.into(),
+            likely_cause,
+        }))
+    }
+
+    /// Where in the run a step was. Frame `index` came after `steps` steps, the last of them at `pace`.
+    fn place_of(&self, step: u32, index: u32, steps: u32, pace: Option<&Pace>) -> Place {
+        let time = self.scene.time;
+        match pace {
+            // About: the steps of one interval differ in length.
+            Some(pace) => {
+                let made = pace.steps().max(1);
+                let mean = 1.0 / (time.fps * f64::from(made));
+                let since = (step + made).saturating_sub(steps);
+                let before = f64::from(index.saturating_sub(1)) / time.fps;
+                Place {
+                    frame: index,
+                    time: before + f64::from(since) * mean,
+                    step: mean,
+                }
+            }
+            None => {
+                let (frame, first) = self.restored;
+                let since = step - first;
+                Place {
+                    frame: frame + since / time.steps_per_frame + 1,
+                    time: f64::from(frame) / time.fps + f64::from(since) * time.step,
+                    step: time.step,
+                }
+            }
+        }
+    }
+}
+
+/// When something happened.
+struct Place {
+    /// The first frame after it.
+    frame: u32,
+    /// Seconds.
+    time: f64,
+    /// Length of the steps there, seconds.
+    step: f64,
+}

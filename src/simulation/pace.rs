@@ -1,0 +1,84 @@
+//! Steps whose length the device chooses: what the host tells it, and what comes back.
+
+use super::Simulation;
+use super::frame::AdaptiveSteps;
+use super::segments::Segment;
+use crate::error::{Error, Result};
+use crate::physics::collider::offset_at;
+use crate::physics::layout::{Clock, Guard, Pace};
+use crate::physics::pace::names;
+use crate::scene::Scene;
+
+/// What a run begins with.
+pub(super) fn at_start(scene: &Scene) -> Pace {
+    let limits = scene.time.adaptive.as_ref();
+    limits.map_or_else(Pace::default, |limits| Pace::new(scene, limits, 0.0))
+}
+
+impl Simulation {
+    /// Sets out for a segment's end.
+    pub(super) fn pace_segment(&mut self, segment: &Segment) -> Result<()> {
+        let seconds = segment.end_time - segment.start_time;
+        let speed = |path: &[_]| {
+            let way = offset_at(path, segment.end_time) - offset_at(path, segment.start_time);
+            way.length() / seconds as f32
+        };
+        let speeds = self.scene.colliders.iter().map(|collider| speed(&collider.path));
+        let fastest = speeds.fold(0.0, f32::max);
+        self.pace.begin_segment(seconds, segment.ends_frame, fastest);
+        self.write_pace()
+    }
+
+    pub(super) fn write_pace(&self) -> Result<()> {
+        match self.scene.time.adaptive {
+            Some(_) => self.buffers.write(&self.gpu, "pace", 0, &[self.pace]),
+            None => Ok(()),
+        }
+    }
+
+    /// Has the passes behind a search find densities and accelerations without any time passing, so that they leave
+    /// velocities alone.
+    pub(super) fn hold(&mut self) -> Result<()> {
+        self.pace.step = 0.0;
+        self.write_pace()?;
+        self.write_parameters(0.0)
+    }
+
+    /// Gives up a run whose steps have become so short that it would never end.
+    pub(super) fn refuse_to_stall(&self) -> Result<()> {
+        let pace = &self.pace;
+        let Some(limits) = self.scene.time.adaptive.as_ref().filter(|_| pace.stalled != 0) else {
+            return Ok(());
+        };
+        let clock = self.read_one::<Clock>("clock")?;
+        let guard = self.read_one::<Guard>("guard")?;
+        if guard.count > 0 {
+            return Err(self.casualty(&guard, self.next_frame, clock.step, Some(pace)));
+        }
+        Err(Error::Limit {
+            what: format!(
+                "before frame {}, after {} steps, a step would have {:.3e} s where {:.3e} s were expected: the run would \
+                 never end; the step is limited by the {}",
+                self.next_frame,
+                clock.step,
+                pace.wanted,
+                self.scene.time.step,
+                names(limits)[pace.limit as usize],
+            ),
+            mend: "look at the frame before for particles that are far too fast, set time.adaptive to false, or begin \
+                   with a scene whose particles do not lie in one another"
+                .into(),
+        })
+    }
+
+    /// How the steps since the last frame were; `None` where there was none.
+    pub(super) fn adaptive_steps(&self, pace: Option<&Pace>) -> Option<AdaptiveSteps> {
+        let (limits, pace) = self.scene.time.adaptive.as_ref().zip(pace)?;
+        let limited = names(limits).into_iter().zip(pace.made);
+        (pace.steps() > 0).then(|| AdaptiveSteps {
+            shortest_s: pace.shortest.into(),
+            longest_s: pace.longest.into(),
+            limited_by: limited.filter(|(_, made)| *made > 0).collect(),
+        })
+    }
+}
