@@ -37,14 +37,14 @@ pub fn plan(scene: &Scene, variant: &mut Variant) -> Vec<BufferPlan> {
     ]
 }
 
-pub fn limits(scene: &Scene, limits: &StepLimits) -> PaceLimits {
+pub fn limits(limits: &StepLimits) -> PaceLimits {
     PaceLimits {
         constant: limits.constant.0.min(ENDLESS) as f32,
         way: limits.way as f32,
         fall: limits.fall as f32,
         sound_speed: limits.sound_speed as f32,
         expected_speed: limits.expected_speed as f32,
-        shortest: (SHORTEST_SHARE * scene.time.step) as f32,
+        shortest: (SHORTEST_SHARE * limits.expected) as f32,
     }
 }
 
@@ -63,9 +63,9 @@ pub fn names(limits: &StepLimits) -> [&'static str; 6] {
 impl Pace {
     /// Before the first step, for which nothing is known but the length that the scene expects and how fast particles
     /// are, m/s.
-    pub fn new(scene: &Scene, limits: &StepLimits, fastest: f32) -> Self {
+    pub fn new(limits: &StepLimits, fastest: f32) -> Self {
         let mut pace = Self {
-            wanted: scene.time.step as f32,
+            wanted: limits.expected as f32,
             ..Default::default()
         };
         pace.heed(limits, fastest);

@@ -238,14 +238,16 @@ impl Fluid {
         self.support / self.kernel.reach().max(2.0)
     }
 
-    /// The same for steps that follow the flow: only the other limits never change. `longest` is the scene's own, s.
-    pub fn adaptive_limits(&self, gravity: f64, longest: Option<f64>) -> StepLimits {
+    /// The same for steps that follow the flow: only the other limits never change. Seconds: `expected` is the
+    /// usual step, `longest` the scene's own.
+    pub fn adaptive_limits(&self, gravity: f64, expected: f64, longest: Option<f64>) -> StepLimits {
         let limits = self.step_limits(gravity).into_iter();
         let constant = limits
             .filter(|(_, name)| ![SOUND, GRAVITY].contains(name))
             .chain(longest.map(|step| (step, "scene's step")));
         let h = self.step_length();
         StepLimits {
+            expected,
             constant: constant
                 .min_by(|a, b| a.0.total_cmp(&b.0))
                 .expect("viscosity is one"),

@@ -357,6 +357,8 @@ pub struct Time {
 /// What limits the length of a step that the device chooses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepLimits {
+    /// What steps are expected to be, before they land on frames, seconds.
+    pub expected: f64,
     /// The shortest of the limits that never change, seconds, and its name.
     pub constant: (f64, &'static str),
     /// Metres that motion and sound together may go in a step.

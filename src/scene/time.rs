@@ -76,6 +76,7 @@ pub fn of_grains(
     }
     let mend = "raise `fps`, make grains.spring softer, or lower grains.damping and grains.shear";
     let adaptive = time.adaptive.then_some(StepLimits {
+        expected: step,
         constant: (step, limited_by),
         way: GRAIN_SHARE * radius,
         fall: GRAIN_SHARE * radius,
@@ -109,7 +110,9 @@ pub fn of_fluid(time: &model::Time, frames: u32, fluid: &Fluid, gravity: f64, re
     }
     let mend = "raise `fps`, lower fluid.sound_speed, or raise fluid.spacing";
     Time {
-        adaptive: time.adaptive.then(|| fluid.adaptive_limits(gravity, time.step)),
+        adaptive: time
+            .adaptive
+            .then(|| fluid.adaptive_limits(gravity, step, time.step)),
         ..fit_frames(time, frames, step, limited_by, mend, report)
     }
 }

@@ -166,7 +166,7 @@ impl Simulation {
             buffers.write(gpu, "clamp_walls", 0, &[dem::clamp_walls(scene)])?;
         }
         if let Some(limits) = &scene.time.adaptive {
-            buffers.write(gpu, "pace_limits", 0, &[physics::pace::limits(scene, limits)])?;
+            buffers.write(gpu, "pace_limits", 0, &[physics::pace::limits(limits)])?;
         }
         if buffers.contains("measure") {
             let measure = match &scene.matter {

@@ -12,7 +12,7 @@ use crate::scene::Scene;
 /// What a run begins with.
 pub(super) fn at_start(scene: &Scene) -> Pace {
     let limits = scene.time.adaptive.as_ref();
-    limits.map_or_else(Pace::default, |limits| Pace::new(scene, limits, 0.0))
+    limits.map_or_else(Pace::default, |limits| Pace::new(limits, 0.0))
 }
 
 impl Simulation {
@@ -62,7 +62,7 @@ impl Simulation {
                 self.next_frame,
                 clock.step,
                 pace.wanted,
-                self.scene.time.step,
+                limits.expected,
                 names(limits)[pace.limit as usize],
             ),
             mend: "look at the frame before for particles that are far too fast, set time.adaptive to false, or begin \

@@ -260,7 +260,7 @@ impl Simulation {
             let fastest = speeds.iter().map(|v| v.length()).fold(0.0, f32::max);
             self.pace = match state.buffer("pace") {
                 Some(bytes) => bytemuck::pod_read_unaligned(bytes),
-                None => Pace::new(&self.scene, limits, fastest),
+                None => Pace::new(limits, fastest),
             };
         }
     }
