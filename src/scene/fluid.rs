@@ -107,6 +107,13 @@ impl Fluid {
                 number(max_speed)
             ));
         }
+        if ripple > 0.0 && given.negative_pressure == NegativePressure::Clamp {
+            report.notes.push(
+                "surface tension cannot hold drops together while pressure is clamped: set fluid.negative_pressure to \
+                 `keep`"
+                    .into(),
+            );
+        }
         if sound_speed < 5.0 * ripple {
             report.notes.push(format!(
                 "fluid.sound_speed {} m/s is less than five times the {} m/s of waves as short as the spacing: surface \

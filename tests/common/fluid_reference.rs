@@ -346,9 +346,9 @@ impl Reference {
                 excess_slope += volume * (self.excess[j] - self.excess[i]) * gradient;
             }
             if seen != 0.0 {
-                let sharpest = (self.dimensions - 1) as f64;
-                let curvature = -sharpest * turned / seen;
-                let most = sharpest / fluid.spacing;
+                let curved = (self.dimensions - 1) as f64;
+                let curvature = -curved * turned / seen;
+                let most = 0.5 * curved / fluid.spacing;
                 let tension = fluid.materials[self.material[i]].surface_tension;
                 push += 2.0 * tension * curvature.clamp(-most, most) * normal;
             }

@@ -187,7 +187,7 @@ fn forces_on(i: u32) -> Forces {
 #if surface_tension
     // Continuum surface force (Brackbill 1992), its curvature from what is seen of the surface (Adami 2010, Eq. 20), as
     // far as particles resolve it. Half of the color's slope lies outside, so what lies inside counts twice.
-    let sharpest = f32(DIMENSIONS - 1u) / fluid.spacing;
+    let sharpest = 0.5 * f32(DIMENSIONS - 1u) / fluid.spacing;
     let curvature = clamp(-f32(DIMENSIONS - 1u) * turned / max(seen, 1e-30), -sharpest, sharpest);
     push += (2.0 * own.surface_tension * curvature) * normal;
 #end

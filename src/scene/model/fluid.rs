@@ -73,7 +73,8 @@ pub struct Fluid {
     /// What fluid does at walls.
     #[serde(default)]
     pub slip: Slip,
-    /// Of the free surface, N/m (N in 2D); 0.0728 for water in air. Between two fluids it is the sum of both.
+    /// Of the free surface, N/m (N in 2D); 0.0728 for water in air (Brackbill 1992; Morris 2000). Between two fluids it
+    /// is the sum of both. Drops need `negative_pressure: keep` to hold together.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub surface_tension: f64,
