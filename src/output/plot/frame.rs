@@ -7,6 +7,10 @@ const TITLE: f64 = 24.0;
 const LABEL: f64 = 18.0;
 const TICK: f64 = 16.0;
 const SPACE: f64 = 12.0;
+/// Names of a legend beside the data take at most this share of the width; longer ones stand below.
+const BESIDE: f64 = 0.35;
+/// From one line of a legend to the next.
+const LEGEND_LINE: f64 = 1.55 * TICK;
 /// Of lines and markers.
 const STROKE: f64 = 2.5;
 const MARKER: f64 = 5.0;
@@ -138,17 +142,25 @@ pub fn draw(
     };
     let y_labels = widest(&mut y_ticks.iter().map(|(_, label)| label.as_str()), TICK);
     let names = widest(&mut legend.iter().map(|entry| entry.name.as_str()), TICK);
+    let beside = !legend.is_empty() && names <= BESIDE * canvas.width;
+    let lines = if beside { 0 } else { legend.len() };
     let remark = if words.remark.is_some() { TICK + SPACE } else { 0.0 };
     let field = Field {
         left: SPACE + LABEL + SPACE + y_labels + SPACE,
         right: canvas.width
-            - if legend.is_empty() {
-                2.0 * SPACE
-            } else {
+            - if beside {
                 names + 4.0 * SPACE + 34.0
+            } else {
+                2.0 * SPACE
             },
         top: TITLE + 2.5 * SPACE,
-        bottom: canvas.height - remark - LABEL - 2.0 * SPACE - ticks.depth() - SPACE,
+        bottom: canvas.height
+            - remark
+            - LEGEND_LINE * lines as f64
+            - LABEL
+            - 2.0 * SPACE
+            - ticks.depth()
+            - SPACE,
     };
     canvas.text(
         (SPACE, SPACE + TITLE / 2.0),
@@ -186,7 +198,12 @@ pub fn draw(
         let y = canvas.height - SPACE - TICK / 2.0;
         canvas.text((SPACE, y), remark.as_str(), TICK, FAINT, Anchor::Left);
     }
-    draw_legend(canvas, legend, field);
+    let corner = if beside {
+        (field.right + 2.0 * SPACE, field.top)
+    } else {
+        (field.left, below + LABEL / 2.0 + SPACE / 2.0)
+    };
+    draw_legend(canvas, legend, corner);
     field
 }
 
@@ -236,10 +253,9 @@ impl Ticks {
     }
 }
 
-fn draw_legend(canvas: &mut Canvas, legend: &[Entry], field: Field) {
-    let left = field.right + 2.0 * SPACE;
+fn draw_legend(canvas: &mut Canvas, legend: &[Entry], (left, top): At) {
     for (index, entry) in legend.iter().enumerate() {
-        let y = field.top + TICK * (0.7 + 1.55 * index as f64);
+        let y = top + 0.7 * TICK + LEGEND_LINE * index as f64;
         let ends = vec![(left, y), (left + 34.0, y)];
         let middle = (left + 17.0, y);
         match entry.sample {
