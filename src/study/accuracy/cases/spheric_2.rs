@@ -35,7 +35,8 @@ const HEIGHTS: &str = "worst RMS of heights";
 /// Depth of the water, m.
 const H: f64 = 0.55;
 /// Gauges H1 to H4: x, m; z is the middle.
-const GAUGES: [f64; 4] = [0.496, 0.992, 1.488, 2.638];
+/// H1 is the one that the wave meets first, H4 stands in the water at the start.
+const GAUGES: [f64; 4] = [1.488, 0.992, 0.496, 2.638];
 /// P1, on the face of the box that the water hits, m.
 const SENSOR: DVec3 = DVec3::new(0.8245, 0.021, 0.4745);
 /// Pressure that counts as water's arrival, Pa.
