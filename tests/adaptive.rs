@@ -169,6 +169,36 @@ fn obstacles_keep_to_their_paths() {
     }
 }
 
+/// A plate rises under a grain and takes it along as with fixed steps.
+#[test]
+fn obstacles_push_grains_as_with_fixed_steps() {
+    let plate = r#"colliders=[{"name":"plate","shape":{"kind":"box","min":[-0.3,-0.1],"max":[0.3,0]},
+        "path":[{"at":0,"offset":[0,0]},{"at":0.2,"offset":[0,0.3]},{"at":0.3,"offset":[0,0.3]}]}]"#;
+    let height = |adaptive: &str| {
+        let scene = falling(
+            false,
+            &[
+                plate,
+                "gravity=[0,0]",
+                "time.duration=0.3",
+                "time.fps=10",
+                adaptive,
+            ],
+        );
+        let ways = frames(&scene)
+            .iter()
+            .map(|frame| column(frame, "position")[1])
+            .collect::<Vec<_>>();
+        ways[ways.len() - 1] - ways[0]
+    };
+    let (fixed, adaptive) = (height("time.adaptive=false"), height(ADAPTIVE));
+    assert!(fixed > 0.1, "the plate pushes: {fixed}");
+    assert!(
+        (adaptive / fixed - 1.0).abs() < 0.02,
+        "{adaptive} m instead of {fixed} m"
+    );
+}
+
 /// What limited most steps of the second frame interval, and the mean step over the length that was expected.
 fn limited(scene: &Scene) -> (&'static str, f64) {
     let frames = frames(scene);
