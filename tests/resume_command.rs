@@ -71,9 +71,8 @@ fn killed_at_random_moments_it_comes_to_the_same_bytes() {
     kill_and_resume(5, 1);
 }
 
-/// The whole promise; takes minutes.
+/// The whole promise.
 #[test]
-#[ignore = "long"]
 fn killed_twenty_times_it_comes_to_the_same_bytes() {
     kill_and_resume(20, 2);
 }
