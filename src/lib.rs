@@ -24,7 +24,8 @@
 //!   Neighbor lists serve several steps (`src/neighbors/lists.rs`). `src/neighbors/occupancy/` counts on the host what
 //!   each grid needs for any positions.
 //! - `src/physics/`: grains (`src/physics/dem.rs`) and obstacles, fluids (`src/physics/fluid.rs`) and their smoothing
-//!   kernels (`src/physics/kernels.rs`); parameters and an ordered list of passes.
+//!   kernels (`src/physics/kernels.rs`); parameters and an ordered list of passes. Steps whose length the device chooses
+//!   (`src/physics/pace.rs`).
 //! - `src/render/`: pictures from the simulation's own buffers: splats, colliders, slices, the pool's heatmap, legends.
 //! - `src/plan/`: scene + limits → every buffer and pass, with the reason for each. Needs no GPU.
 //! - `src/simulation/`: executes a plan: steps, frames, what comes back. Grids that need more room get it
@@ -43,12 +44,11 @@
 //!
 //! `src/scene/shapes.rs` places it, relative to the scene's origin, which is subtracted in f64. The simulation writes
 //! it into `next_position`; the search's passes count it into a voxel and scatter it to its place in `position`, where
-//! neighbors in space are neighbors in memory. Every step, `shaders/physics/dem/symplectic_euler.wgsl` (of a fluid,
-//! the file of that name in `shaders/physics/fluid/`) asks the search for candidate ranges, sums contacts and writes
-//! `next_position` again. At the end of a frame the renderer's vertex
-//! stage pulls the particle from the very same buffer, the fragment stage shades a sphere, and the pixels, a few
-//! figures and only the columns that a sink wants travel through a ring of staging buffers (`src/gpu/readback.rs`) to
-//! the encoder threads of `src/output/png.rs`.
+//! neighbors in space are neighbors in memory. Every step, `shaders/physics/dem/symplectic_euler.wgsl` (of a fluid, the
+//! file of that name in `shaders/physics/fluid/`) asks the search for candidate ranges, sums contacts and writes
+//! `next_position` again. At the end of a frame the renderer's vertex stage pulls the particle from the very same
+//! buffer, the fragment stage shades a sphere, and the pixels, a few figures and only the columns that a sink wants
+//! travel through a ring of staging buffers (`src/gpu/readback.rs`) to the encoder threads of `src/output/png.rs`.
 //!
 //! # To add
 //!

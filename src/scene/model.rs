@@ -180,7 +180,8 @@ pub enum Wall {
     Contact,
     /// Moves the grain back to the wall and reverses its normal speed, times `restitution` (Green 2012). For grains.
     Clamp,
-    /// Layers of particles beyond the side that carry the fluid's pressure and velocity on (Adami 2012). For fluids.
+    /// Layers of particles beyond the side that carry the fluid's pressure and velocity on (Adami 2012). Beyond an open
+    /// side they go on as smooth planes, so that splashes stay above their tank. For fluids.
     Particles,
     /// A plane beyond which the fluid's pressure and velocity go on as far as the kernel reaches (Rojas 2013). For fluids.
     Planes,

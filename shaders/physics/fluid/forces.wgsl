@@ -185,8 +185,9 @@ fn forces_on(i: u32) -> Forces {
 #end
     var forces = Forces();
 #if surface_tension
-    // Continuum surface force (Brackbill 1992), its curvature from what is seen of the surface (Adami 2010, Eq. 20), as
-    // far as particles resolve it. Half of the color's slope lies outside, so what lies inside counts twice.
+    // Continuum surface force (Brackbill 1992). The curvature is how much normals turn along the surface, over what is
+    // seen of it (after Adami 2010, who counts the way across it too), as far as particles resolve it. Half of the
+    // color's slope lies outside, so what lies inside counts twice.
     let sharpest = 0.5 * f32(DIMENSIONS - 1u) / fluid.spacing;
     let curvature = clamp(-f32(DIMENSIONS - 1u) * turned / max(seen, 1e-30), -sharpest, sharpest);
     push += (2.0 * own.surface_tension * curvature) * normal;

@@ -1,5 +1,5 @@
 // Gradient of a color that is one in a fluid and in walls, zero outside (Morris 2000): it points from the surface into
-// the fluid. Beside walls it turns to the contact angle (Brackbill 1992, Eq. 35; blended as in Breinlinger 2013).
+// the fluid. Beside walls it turns to the contact angle (Brackbill 1992; blended as in Breinlinger 2013).
 #import common/thread
 #import physics/fluid/pairs
 #import physics/fluid/material
