@@ -77,6 +77,28 @@ fn killed_twenty_times_it_comes_to_the_same_bytes() {
     kill_and_resume(20, 2);
 }
 
+/// From its first file on a run can be resumed, and before it nothing keeps the same command from running again.
+#[test]
+fn killed_as_soon_as_a_file_appears_it_can_go_on() {
+    let place = Place::new();
+    for round in 0..10 {
+        let out = format!("run_{round}");
+        let mut run = start(&mut place.run(&out, &[]));
+        let is_whole = |entry: fs::DirEntry| {
+            let name = entry.file_name().into_string().unwrap();
+            !name.starts_with('.') && !name.ends_with(".part")
+        };
+        let has_file =
+            || fs::read_dir(place.path(&out)).is_ok_and(|mut dir| dir.any(|e| is_whole(e.unwrap())));
+        while !has_file() {
+            assert!(run.try_wait().unwrap().is_none(), "it wrote nothing");
+        }
+        run.kill().unwrap();
+        run.wait().unwrap();
+        place.told(&mut place.sliceflow(&["resume", &out, "--frames", "2"]), 0);
+    }
+}
+
 #[test]
 fn a_damaged_checkpoint_is_told_and_the_one_before_it_is_used() {
     let place = Place::new();
@@ -294,4 +316,9 @@ fn recordings_of_what_comes_later_are_files_of_their_own() {
         assert!(place.path(name).exists(), "{name}");
     }
     assert!(fs::read(place.path("session.rrd")).unwrap() == recorded);
+
+    // A run whose recording cannot be created leaves nothing that its next attempt would have to replace.
+    let nowhere = ["--frames", "2", "--rerun", "scene.json/session.rrd"];
+    place.told(&mut place.run("again", &nowhere), 1);
+    place.told(&mut place.run("again", &nowhere[..2]), 0);
 }

@@ -107,7 +107,6 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
     if let Some(told) = told {
         progress.note(&told);
     }
-    let mut sinks = settings.outputs.sinks(scene, &plan, &folder, &progress)?;
     let mut tally = Tally::start(scene.time.frames - first);
     let mut health = Health::default();
     if let Some(state) = start.state() {
@@ -118,9 +117,6 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         tally = tally.resume(state.frame + 1 - first, state.steps(), was.particle_steps, wall_s);
         health = was.health.clone();
         warn_of_other_machine(was, &about, &progress);
-        for sink in &mut sinks {
-            sink.resume_from(state.frame + 1)?;
-        }
     }
     let pinned = recipe.variant_of.is_some().then_some(first);
     let behind = match &start {
@@ -136,7 +132,21 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         settings.outputs.files(scene),
     );
     manifest.recipe = Some(recipe);
+    // Before any other file: from here on a run that dies can be resumed.
     manifest.update(tally)?;
+    let sinks = match open_sinks(settings, scene, &plan, &folder, &progress, behind) {
+        Ok(sinks) => sinks,
+        // Nothing was made yet that the next attempt would have to replace.
+        Err(error) if matches!(start, Start::Beginning | Start::With(_)) => {
+            folder.clear()?;
+            return Err(error);
+        }
+        Err(error) => {
+            let outcome = Err(error);
+            manifest.close(tally, &outcome)?;
+            return outcome;
+        }
+    };
 
     interrupt::listen();
     let mut run = Run {
@@ -164,6 +174,24 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         run.serve();
     }
     outcome.and(closed)
+}
+
+/// The sinks of a run, ready for the frame after `behind`.
+fn open_sinks(
+    settings: &Settings,
+    scene: &Scene,
+    plan: &Plan,
+    folder: &Arc<Folder>,
+    progress: &Progress,
+    behind: Option<u32>,
+) -> Result<Vec<Box<dyn Sink>>> {
+    let mut sinks = settings.outputs.sinks(scene, plan, folder, progress)?;
+    if let Some(frame) = behind {
+        for sink in &mut sinks {
+            sink.resume_from(frame + 1)?;
+        }
+    }
+    Ok(sinks)
 }
 
 /// Opens the device that a run asks for, and tells what is to be known about it.
