@@ -23,7 +23,7 @@ fn wanted() -> Wanted {
 
 /// Plans of fluids that together use every flag and role.
 fn fluid_plans() -> Vec<Plan> {
-    let solvers: [&[&str]; 11] = [
+    let solvers: [&[&str]; 12] = [
         &["fluid.solver=sph", "fluid.viscosity=0.1"],
         &["time.adaptive=true"],
         &["time.adaptive=true", "time.integrator=velocity_verlet"],
@@ -48,6 +48,7 @@ fn fluid_plans() -> Vec<Plan> {
             "fluid.slip=free_slip",
             "fluid.kernel=wendland_c4",
         ],
+        &["fluid.viscosity=0.1", "fluid.gradient_correction=true"],
         &[
             "fluid.viscosity=0.1",
             "fluid.viscosity_form=stress",

@@ -53,6 +53,10 @@ pub fn plan(
     let several = fluid.materials.len() > 1;
     let sticks = walls && viscous && fluid.slip == Slip::NoSlip;
     let shifting = fluid.shifting > 0.0;
+    let muller = fluid.kernel == Kernel::Muller;
+    let slips = viscous && (walls || planes) && fluid.slip == Slip::FreeSlip;
+    // Walls along which fluid slips say nothing of the velocity's slope.
+    let exact_laplacian = fluid.gradient_correction && viscous && !stress && !muller && !slips;
     variant
         .flag(FLAG, true)
         .role("kernel", kernel_file(fluid.kernel))
@@ -64,15 +68,14 @@ pub fn plan(
         .flag("several_materials", several)
         .flag("viscosity", viscous)
         .flag("viscous_velocities", sticks)
-        .flag(
-            "slips",
-            viscous && (walls || planes) && fluid.slip == Slip::FreeSlip,
-        )
+        .flag("slips", slips)
         .flag("laplacian_form", viscous && !stress)
+        .flag("laplacian_correction", exact_laplacian)
+        .flag("velocity_slopes", shifting || exact_laplacian)
         .flag("stress_form", stress)
         .flag("surface_tension", tension)
         .flag("artificial_viscosity", fluid.artificial_viscosity > 0.0)
-        .flag("muller_kernels", fluid.kernel == Kernel::Muller)
+        .flag("muller_kernels", muller)
         .flag(
             "monaghan_pressure",
             fluid.pressure_force == PressureForce::Monaghan,

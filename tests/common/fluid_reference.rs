@@ -169,7 +169,12 @@ impl Reference {
                     DensityFrom::Continuity => self.volume(j),
                 };
                 moment += outer(away, gradient) * volume;
-                slopes += outer(self.velocity[j] - self.velocity[i], gradient) * volume;
+                let mirrored = if self.is_wall(j) && fluid.gradient_correction {
+                    2.0
+                } else {
+                    1.0
+                };
+                slopes += outer(self.velocity[j] - self.velocity[i], gradient) * (mirrored * volume);
                 sum += w(r);
                 if !self.is_wall(j) && self.material[j] == self.material[i] {
                     let difference = self.excess[j] - e - at_rest.dot(away);
@@ -292,6 +297,7 @@ impl Reference {
             let (mut push, mut drag) = (DVec3::ZERO, DVec3::ZERO);
             let normal = self.surface_normal[i];
             let (mut turned, mut seen) = (0.0, 0.0);
+            let mut offset = DVec3::ZERO;
             let (mut crowd, mut slopes, mut excess_slope) = (DVec3::ZERO, DMat3::ZERO, DVec3::ZERO);
             for (j, away, r, gradient) in self.neighbors(i) {
                 let volume = self.volume(j);
@@ -327,6 +333,7 @@ impl Reference {
                 } else if !slides {
                     let both = viscosity + fluid.materials[self.material[j]].viscosity;
                     drag += both * volume * gradient.dot(away) / (r * r) * apart;
+                    offset += both * volume * gradient;
                 }
                 let beside = self.surface_normal[j];
                 if beside != DVec3::ZERO && self.material[j] == self.material[i] {
@@ -342,7 +349,7 @@ impl Reference {
                 let near = kernels::value(fluid.kernel, self.dimensions, h, r)
                     / kernels::value(fluid.kernel, self.dimensions, h, fluid.spacing);
                 crowd += volume * (1.0 + 0.2 * near.powi(4)) * gradient;
-                slopes += outer(self.velocity[j] - self.velocity[i], gradient) * volume;
+                slopes += outer(apart, gradient) * volume;
                 excess_slope += volume * (self.excess[j] - self.excess[i]) * gradient;
             }
             if seen != 0.0 {
@@ -362,6 +369,16 @@ impl Reference {
                 }
                 slopes *= exact;
                 excess_slope = exact * excess_slope;
+                let slips = fluid.slip == Slip::FreeSlip && self.free < self.position.len();
+                if fluid.viscosity_form == ViscosityForm::Laplacian
+                    && fluid.kernel != Kernel::Muller
+                    && !slips
+                {
+                    let trace = exact.x_axis.x
+                        + exact.y_axis.y
+                        + if self.dimensions == 3 { exact.z_axis.z } else { 0.0 };
+                    drag = (trace / self.dimensions as f64) * (drag - slopes * offset);
+                }
             }
             let wanted = -4.0 * fluid.shifting * half * fluid.max_speed * self.step * crowd;
             let shift = wanted * (0.05 * fluid.spacing / wanted.length().max(1e-30)).min(1.0);

@@ -16,6 +16,10 @@ var<storage, read_write> correction: array<Matrix>;
 var<storage, read> excess: array<f32>; // of the step before
 #end
 
+#if gradient_correction
+// A wall mirrors what comes near: the velocity goes on along a straight line beyond it, as exact gradients expect.
+const MIRRORED: f32 = 2.0;
+#end
 // Below this determinant a particle has too few neighbors for its gradients to be corrected.
 const FEW_NEIGHBORS: f32 = 0.3;
 
@@ -56,7 +60,7 @@ fn find_density(thread: Thread) {
                 let relative = unpack(velocity[j]) - v;
 #if gradient_correction
                 moment -= weight * outer(s, s);
-                slopes -= weight * outer(relative, s);
+                slopes -= (weight * select(1.0, MIRRORED, is_wall(j))) * outer(relative, s);
 #else
                 divergence -= weight * dot(relative, s);
 #end
@@ -86,7 +90,7 @@ fn find_density(thread: Thread) {
         let relative = cell.velocity - v;
 #if gradient_correction
         moment -= weight * outer(cell.way, cell.way);
-        slopes -= weight * outer(relative, cell.way);
+        slopes -= (MIRRORED * weight) * outer(relative, cell.way);
 #else
         divergence -= weight * dot(relative, cell.way);
 #end

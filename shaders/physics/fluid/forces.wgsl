@@ -6,9 +6,7 @@
 #if matrices
 #import physics/fluid/matrix
 #end
-#if viscosity
 #import physics/fluid/viscous
-#end
 #if planes
 #import physics/fluid/planes
 #end
@@ -39,9 +37,14 @@ fn forces_on(i: u32) -> Forces {
     let density = own.density * (1.0 + state.x);
     var push = Vector(0.0); // of pressure, N/m³
     var drag = Vector(0.0); // of viscosity, N/m³
+#if velocity_slopes
+    var velocity_slope = Matrix();
+#end
+#if laplacian_correction
+    var offset = Vector(0.0); // where the weights of viscous forces are not balanced
+#end
 #if shifting
     var crowd = Vector(0.0);
-    var velocity_slope = Matrix();
     var excess_slope = Vector(0.0);
 #end
 #if surface_tension
@@ -84,6 +87,9 @@ fn forces_on(i: u32) -> Forces {
                 drag += (0.5 * shear * volume_at(other.x) * kernel_laplacian(r)) * (viscous(j) - v);
 #else
                 drag -= (shear * weight) * (viscous(j) - v);
+#if laplacian_correction
+                offset -= (shear * weight) * s;
+#end
 #end
 #end
 #if stress_form
@@ -113,11 +119,13 @@ fn forces_on(i: u32) -> Forces {
                 let square = dot(s, s) + fluid.smallest_square;
                 drag -= (weight * density * fluid.artificial_viscosity * approach / square) * s;
 #end
+#if velocity_slopes
+                velocity_slope -= weight * outer(viscous(j) - v, s);
+#end
 #if shifting
                 // More where particles come close, so that they do not pair (Monaghan 2000).
                 let near = kernel(r) / fluid.kernel_at_spacing;
                 crowd -= (weight * (1.0 + 0.2 * (near * near) * (near * near))) * s;
-                velocity_slope -= weight * outer(unpack(velocity[j]) - v, s);
                 excess_slope -= (weight * (other.x - state.x)) * s;
 #end
             }
@@ -150,6 +158,9 @@ fn forces_on(i: u32) -> Forces {
         drag += (cell.share * own.viscosity * volume_at(state.x) * kernel_laplacian(r) * cell.stretch) * apart;
 #else
         drag -= (2.0 * own.viscosity * weight * cell.stretch) * apart;
+#if laplacian_correction
+        offset -= (2.0 * own.viscosity * weight) * s;
+#end
 #end
 #end
 #end
@@ -166,7 +177,13 @@ fn forces_on(i: u32) -> Forces {
 #if shifting
         let near = kernel(r) / fluid.kernel_at_spacing;
         crowd -= (weight * (1.0 + 0.2 * (near * near) * (near * near))) * s;
+#end
+#if velocity_slopes
+#if slips
         velocity_slope -= weight * outer(apart, s);
+#else
+        velocity_slope -= (weight * cell.stretch) * outer(apart, s);
+#end
 #end
     }
 #end
@@ -178,8 +195,14 @@ fn forces_on(i: u32) -> Forces {
 #if stress_form
     drag = exact * drag;
 #end
-#if shifting
+#if velocity_slopes
     velocity_slope = velocity_slope * exact;
+#end
+#if laplacian_correction
+    // The sum is exact for lattices; else it holds a part of the slope, and its weights do not add up (Schwaiger 2008).
+    drag = (trace(exact) / f32(DIMENSIONS)) * (drag - velocity_slope * offset);
+#end
+#if shifting
     excess_slope = exact * excess_slope;
 #end
 #end

@@ -62,7 +62,8 @@ pub struct Fluid {
     pub pressure_force: PressureForce,
     #[serde(default)]
     pub negative_pressure: NegativePressure,
-    /// Whether gradients are corrected to be exact for linear fields (Randles and Libersky 1996).
+    /// Whether gradients are corrected to be exact for linear fields (Randles and Libersky 1996), and with them the
+    /// Laplacian of viscous forces (Schwaiger 2008), except where fluid slips along walls.
     #[serde(default)]
     pub gradient_correction: bool,
     /// Strength of particle shifting, which keeps particles evenly spread (Lind 2012); 0 is none, 1 that of δ⁺-SPH (Sun 2017). For flows
