@@ -155,7 +155,7 @@ impl fmt::Display for Error {
                 write!(
                     f,
                     "{} at frame {}, step {}, t = {:.6} s: particle {} at ({x:.6}, {y:.6}, {z:.6}) m \
-                     with velocity ({u:.4}, {v:.4}, {w:.4}) m/s; {} particle(s) in all\n  \
+                     with velocity ({u:.4}, {v:.4}, {w:.4}) m/s; {} such catches until the frame's end\n  \
                      likely cause: {}\n  what was written before stays",
                     c.what, c.frame, c.step, c.time, c.id, c.count, c.likely_cause
                 )

@@ -8,8 +8,9 @@ use fluid_reference::Reference;
 use glam::{DVec3, Vec3};
 use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
 use sliceflow::plan::Wanted;
-use sliceflow::scene::{Particles, Scene};
+use sliceflow::scene::{Particles, Scene, column};
 use sliceflow::simulation::Simulation;
+use sliceflow::simulation::frame::Values;
 
 /// Simulates `frames` frame intervals.
 fn simulated(scene: &Scene, frames: u32) -> Simulation {
@@ -207,6 +208,44 @@ fn momentum_stays() {
         let speeds: f64 = found.velocity.iter().map(|v| f64::from(v.length())).sum();
         let change = (total(&found.velocity) - before).length();
         assert!(change < 1e-4 * speeds, "{solver:?}: {change} of {speeds}");
+    }
+}
+
+#[test]
+fn clamping_is_counted() {
+    for (kept, clamps) in [("clamp", true), ("keep", false)] {
+        let negative = format!("fluid.negative_pressure={kept}");
+        let scene = stirred(2, 200, &[&negative, "fluid.viscosity=1"]);
+        let wanted = Wanted {
+            statistics: true,
+            columns: vec![column::find("pressure").expect("a column")],
+            columns_every: 1,
+            ..Wanted::default()
+        };
+        let mut simulation = common::simulate(&scene, &wanted);
+        for _ in 0..2 {
+            simulation.next_frame().expect("a frame");
+        }
+        let mut last = None;
+        while let Some(frame) = simulation.finish_frame().expect("a frame") {
+            last = Some(frame);
+        }
+        let frame = last.expect("a frame");
+        let Values::Float(pressure) = &frame.columns[0].values else {
+            panic!("pressure is one number a particle");
+        };
+        let at_zero = pressure.iter().filter(|p| **p == 0.0).count();
+        match frame.statistics.expect("statistics").clamped {
+            Some([pressures, densities]) => {
+                assert!(clamps);
+                assert_eq!(pressures as usize, at_zero);
+                assert!(
+                    0 < densities && densities < pressures,
+                    "{densities} of {pressures}"
+                );
+            }
+            None => assert!(!clamps && at_zero == 0),
+        }
     }
 }
 

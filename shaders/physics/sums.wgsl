@@ -8,6 +8,8 @@ struct Sums {
     contacts: u32, // as seen by each particle: a contact of two counts twice
     density_error: f32, // of a fluid, |ρ/ρ₀ − 1|, summed
     max_density_error: f32,
+    clamped_pressures: u32, // particles whose pressure counts as zero because it would be negative
+    clamped_densities: u32, // those of them that the flow would have thinned further
 }
 
 fn add_sums(a: Sums, b: Sums) -> Sums {
@@ -19,5 +21,7 @@ fn add_sums(a: Sums, b: Sums) -> Sums {
         a.contacts + b.contacts,
         a.density_error + b.density_error,
         max(a.max_density_error, b.max_density_error),
+        a.clamped_pressures + b.clamped_pressures,
+        a.clamped_densities + b.clamped_densities,
     );
 }

@@ -108,6 +108,11 @@ struct Measured {
     density_error_mean: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     density_error_max: Option<f64>,
+    /// Particles of a fluid whose negative pressures are clamped.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    clamped_pressures: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    clamped_densities: Option<u32>,
     voxels_allocated: u32,
     voxels_occupied: u32,
     voxels_with_1: u32,
@@ -129,6 +134,8 @@ impl From<&Statistics> for Measured {
             contacts: from.contacts,
             density_error_mean: from.density_error.map(|[mean, _]| mean),
             density_error_max: from.density_error.map(|[_, most]| most),
+            clamped_pressures: from.clamped.map(|[pressures, _]| pressures),
+            clamped_densities: from.clamped.map(|[_, densities]| densities),
             voxels_allocated: from.voxels_allocated,
             voxels_occupied: from.voxels_occupied,
             voxels_with_1,

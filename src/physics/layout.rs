@@ -176,6 +176,10 @@ shared_struct! {
         /// Of a fluid, |ρ/ρ₀ − 1|, summed over its particles.
         pub density_error: f32,
         pub max_density_error: f32,
+        /// Of a fluid, particles whose pressure counts as zero because it would be negative.
+        pub clamped_pressures: u32,
+        /// Those of them whose density is the lowest that is allowed.
+        pub clamped_densities: u32,
     }
 }
 

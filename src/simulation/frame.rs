@@ -9,6 +9,7 @@ use crate::neighbors::boxes::{VoxelBox, boxes};
 use crate::physics::layout::{Occupancy, Overflow, Sums};
 use crate::plan::{Plan, has_buffer};
 use crate::scene::column::{Column, Source};
+use crate::scene::model::NegativePressure;
 use crate::scene::{Dimensions, Scene};
 
 /// One moment of a run, on the host.
@@ -78,6 +79,9 @@ pub struct Statistics {
     pub contacts: u64,
     /// Of a fluid, the mean and the greatest |ρ/ρ₀ − 1| over its particles.
     pub density_error: Option<[f64; 2]>,
+    /// Of a fluid whose negative pressures are clamped: particles whose pressure counts as zero therefore, and those of
+    /// them whose density is the lowest allowed.
+    pub clamped: Option<[u32; 2]>,
     pub voxels_allocated: u32,
     pub voxels_occupied: u32,
     /// Voxels with one, two, three, four particles.
@@ -122,6 +126,10 @@ impl Statistics {
                     f64::from(sums.max_density_error),
                 ]
             }),
+            clamped: scene
+                .fluid()
+                .filter(|fluid| fluid.negative_pressure == NegativePressure::Clamp)
+                .map(|_| [sums.clamped_pressures, sums.clamped_densities]),
             voxels_allocated: occupancy.voxels,
             voxels_occupied: one + two + three + four + more,
             voxels_with: [one, two, three, four],

@@ -51,6 +51,12 @@ fn measure_fluid(thread: Thread) {
             sums.max_speed = length(v);
             sums.density_error = abs(state.x);
             sums.max_density_error = abs(state.x);
+#if clamped_pressure
+            sums.clamped_pressures = select(0u, 1u, pressure_at(own.stiffness, state.x) < 0.0);
+#if continuity
+            sums.clamped_densities = select(0u, 1u, state.x <= fluid.lowest_excess);
+#end
+#end
         }
 #end
     }

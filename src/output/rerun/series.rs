@@ -34,6 +34,14 @@ pub const GROUPS: &[Group] = &[
         curves: &[("max_overlap", "greatest overlap, share of the radius")],
     },
     Group {
+        name: "clamped",
+        title: "clamped particles",
+        curves: &[
+            ("clamped_pressures", "pressure held at zero"),
+            ("clamped_densities", "density held at its lowest"),
+        ],
+    },
+    Group {
         name: "speed",
         title: "greatest speed",
         curves: &[("max_speed_m_per_s", "greatest speed, m/s")],
