@@ -211,6 +211,26 @@ fn momentum_stays() {
     }
 }
 
+/// Two compressed particles that have left the fluid do not push each other away; a compressed block swells.
+#[test]
+fn drops_are_under_the_airs_pressure() {
+    for (side, swells) in [(2, false), (8, true)] {
+        let length = 0.05 * f64::from(side);
+        let body = format!(
+            "bodies=[{{\"shape\":{{\"kind\":\"box\",\"min\":[0.3,0.05],\"max\":[{},{}]}}}}]",
+            0.3 + length,
+            0.05 + if swells { length } else { 0.05 }
+        );
+        let mut scene = common::fluid(2, &[&body, "colliders=[]", "gravity=[0,0]", "time.fps=200"]);
+        let count = scene.first_wall() as usize;
+        assert_eq!(count, if swells { 64 } else { 2 });
+        scene.particles.excess[..count].fill(0.01);
+        let found = particles(&scene, 1);
+        let fastest = found.velocity.iter().map(|v| v.length()).fold(0.0, f32::max);
+        assert_eq!(fastest > 0.0, swells, "{count} particles: {fastest} m/s");
+    }
+}
+
 #[test]
 fn clamping_is_counted() {
     for (kept, clamps) in [("clamp", true), ("keep", false)] {

@@ -161,6 +161,7 @@ impl Reference {
             let mut slopes = DMat3::ZERO;
             let mut diffused = 0.0;
             let mut sum = w(0.0);
+            let mut filling = self.volume(i) * w(0.0);
             let at_rest = self.gravity * closed / fluid.sound_speed.powi(2)
                 * (1.0 + (2.0 - f64::from(fluid.gamma)) * e);
             for &(j, away, r, gradient) in &neighbors {
@@ -176,6 +177,7 @@ impl Reference {
                 };
                 slopes += outer(self.velocity[j] - self.velocity[i], gradient) * (mirrored * volume);
                 sum += w(r);
+                filling += volume * w(r);
                 if !self.is_wall(j) && self.material[j] == self.material[i] {
                     let difference = self.excess[j] - e - at_rest.dot(away);
                     diffused += volume * difference * gradient.dot(away) / (r * r);
@@ -200,7 +202,10 @@ impl Reference {
                     let diffusion = 2.0 * fluid.density_diffusion * fluid.support / 2.0 * fluid.sound_speed;
                     let moved = e + step * (diffusion * diffused - (1.0 + e) * divergence);
                     match fluid.negative_pressure {
-                        NegativePressure::Clamp => moved.max(-(fluid.max_speed / fluid.sound_speed).powi(2)),
+                        NegativePressure::Clamp => {
+                            let moved = moved.max(-(fluid.max_speed / fluid.sound_speed).powi(2));
+                            if filling < 0.4 { moved.min(0.0) } else { moved }
+                        }
                         _ => moved,
                     }
                 }

@@ -20,6 +20,10 @@ var<storage, read> excess: array<f32>; // of the step before
 // A wall mirrors what comes near: the velocity goes on along a straight line beyond it, as exact gradients expect.
 const MIRRORED: f32 = 2.0;
 #end
+#if clamped_pressure
+// Share of the kernel that is filled around a particle that has left the fluid: itself and one other.
+const SEVERED: f32 = 0.4;
+#end
 // Below this determinant a particle has too few neighbors for its gradients to be corrected.
 const FEW_NEIGHBORS: f32 = 0.3;
 
@@ -35,6 +39,9 @@ fn find_density(thread: Thread) {
     let v = unpack(velocity[i]);
     let before = excess[i];
     var divergence = 0.0;
+#if clamped_pressure
+    var filling = volume_at(before) * kernel(0.0);
+#end
     var diffused = 0.0;
     // What density gains along gravity at rest, which must not diffuse (Fourtakas 2019): dρ/ρ₀ = (ρ/ρ₀)^(2−γ) g·dx/c².
     let at_rest = first(parameters.gravity) * first(fluid.closed)
@@ -57,6 +64,9 @@ fn find_density(thread: Thread) {
 #if continuity
                 let other = excess[j];
                 let weight = volume_at(other) * kernel_slope(r);
+#if clamped_pressure
+                filling += volume_at(other) * kernel(r);
+#end
                 let relative = unpack(velocity[j]) - v;
 #if gradient_correction
                 moment -= weight * outer(s, s);
@@ -88,6 +98,9 @@ fn find_density(thread: Thread) {
 #if continuity
         let weight = cell.share * volume_at(before) * kernel_slope(r);
         let relative = cell.velocity - v;
+#if clamped_pressure
+        filling += cell.share * volume_at(before) * kernel(r);
+#end
 #if gradient_correction
         moment -= weight * outer(cell.way, cell.way);
         slopes -= (MIRRORED * weight) * outer(relative, cell.way);
@@ -117,6 +130,9 @@ fn find_density(thread: Thread) {
 #if clamped_pressure
     // Torn fluid keeps close to rest density: it would have to be pressed together again before a wall could hold it.
     e = max(e, fluid.lowest_excess);
+    // What has left the fluid is under the air's pressure: with the one that it left at, drops would hover on each
+    // other as a gas does.
+    e = select(e, min(e, 0.0), filling < SEVERED);
 #end
 #else
     let e = fluid.volume * sum - 1.0;
