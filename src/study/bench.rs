@@ -119,20 +119,22 @@ impl Bench {
         Ok(())
     }
 
-    /// The picture of a scene's first state.
-    pub fn picture(&self, scene: &Scene, view: View) -> Result<Option<RgbaImage>> {
+    /// The picture of a scene's frame `index`, counted from 0.
+    pub fn picture(&self, scene: &Scene, view: View, index: u32) -> Result<Option<RgbaImage>> {
         let wanted = Wanted {
             statistics: true,
             view: Some(view),
             ..Default::default()
         };
         let mut simulation = self.simulation(scene, &wanted)?;
-        let first = simulation.next_frame()?;
-        let frame = match first {
-            Some(frame) => Some(frame),
-            None => simulation.finish_frame()?,
-        };
-        match frame {
+        let mut last = None;
+        for _ in 0..=index {
+            last = simulation.next_frame()?.or(last);
+        }
+        while let Some(frame) = simulation.finish_frame()? {
+            last = Some(frame);
+        }
+        match last {
             Some(frame) => compose_picture(&frame, &Overlay::new(scene, view)?),
             None => Ok(None),
         }

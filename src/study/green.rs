@@ -258,7 +258,7 @@ fn rate(page: &mut Page, bench: &Bench, scale: &Scale, bed: &Scene) -> Result<()
         ]);
     }
     page.table("frames_per_second", &table);
-    let picture = bench.picture(&bed, crate::scene::model::View::Scene)?;
+    let picture = bench.picture(&bed, crate::scene::model::View::Scene, 0)?;
     if let Some(picture) = picture {
         page.picture(
             "green_bed.png",

@@ -24,7 +24,7 @@ fn picture(
     let mut scene = scenes::with_grid(scene, SLICED)?;
     // It would tell the time since this state.
     scene.render.show.caption = false;
-    match bench.picture(&scene, view)? {
+    match bench.picture(&scene, view, 0)? {
         Some(picture) => page.picture(file, caption, |path| {
             write_file(path, &encode_png(picture, path)?)
         }),
