@@ -55,7 +55,7 @@ fn stirred(dimensions: usize, steps: u32, overrides: &[&str]) -> Scene {
     scene
 }
 
-const SOLVERS: [&[&str]; 9] = [
+const SOLVERS: [&[&str]; 11] = [
     &[],
     &["time.integrator=velocity_verlet", "fluid.viscosity=5"],
     &["fluid.solver=sph", "fluid.viscosity=5"],
@@ -74,6 +74,14 @@ const SOLVERS: [&[&str]; 9] = [
         "fluid.viscosity_form=stress",
         "fluid.slip=free_slip",
     ],
+    &[
+        "fluid.viscosity=5",
+        "fluid.gradient_correction=true",
+        "fluid.pressure_force=difference",
+        "fluid.shifting=1",
+        "fluid.negative_pressure=keep",
+    ],
+    &["fluid.viscosity=5", "fluid.gradient_correction=true"],
     &[
         "fluid.viscosity=5",
         "fluid.viscosity_form=stress",
