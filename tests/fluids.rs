@@ -222,12 +222,10 @@ fn momentum_stays() {
 /// Two compressed particles that have left the fluid do not push each other away; a compressed block swells.
 #[test]
 fn drops_are_under_the_airs_pressure() {
-    for (side, swells) in [(2, false), (8, true)] {
-        let length = 0.05 * f64::from(side);
+    for (side, height, bottom, swells) in [(2, 1, 0.2, false), (8, 8, 0.05, true)] {
+        let (right, top) = (0.3 + 0.05 * f64::from(side), bottom + 0.05 * f64::from(height));
         let body = format!(
-            "bodies=[{{\"shape\":{{\"kind\":\"box\",\"min\":[0.3,0.05],\"max\":[{},{}]}}}}]",
-            0.3 + length,
-            0.05 + if swells { length } else { 0.05 }
+            "bodies=[{{\"shape\":{{\"kind\":\"box\",\"min\":[0.3,{bottom}],\"max\":[{right},{top}]}}}}]"
         );
         let mut scene = common::fluid(2, &[&body, "colliders=[]", "gravity=[0,0]", "time.fps=200"]);
         let count = scene.first_wall() as usize;

@@ -96,7 +96,7 @@ pub fn rojas(settings: &Settings) -> Result<PathBuf> {
         "A square column of water, half a metre on a side, collapses in the unit square between no-slip walls. The \
          real-time ratio (RTR) is computing time over simulated time, as in the paper's Figure 10: one is real time, less \
          is faster. Each figure is the median over {} intervals after a first one that compiles shaders, without pictures; \
-         an interval of the coarsest dam is {} s, and the others have as many steps. The figure's own values are not \
+         an interval of the coarsest dam is {} s, and the others have as many steps, all of them early in the run. The figure's own values are not \
          printed in the paper as numbers, so none stand here.",
         scale.intervals, scale.seconds
     ));
@@ -220,7 +220,8 @@ fn picture(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
     let Some(picture) = bench.picture(&scene, View::Scene, 1)? else {
         return Ok(());
     };
-    page.picture("rojas_dam.png", "The shipped way, colored by speed.", |path| {
+    let caption = format!("The shipped way after {moment} s, colored by speed.");
+    page.picture("rojas_dam.png", &caption, |path| {
         crate::output::write_file(path, &crate::output::encode_png(picture, path)?)
     })
 }

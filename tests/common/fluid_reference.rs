@@ -161,7 +161,7 @@ impl Reference {
             let mut slopes = DMat3::ZERO;
             let mut diffused = 0.0;
             let mut sum = w(0.0);
-            let mut filling = self.volume(i) * w(0.0);
+            let mut surrounded = 0.0;
             let at_rest = self.gravity * closed / fluid.sound_speed.powi(2)
                 * (1.0 + (2.0 - f64::from(fluid.gamma)) * e);
             for &(j, away, r, gradient) in &neighbors {
@@ -177,7 +177,7 @@ impl Reference {
                 };
                 slopes += outer(self.velocity[j] - self.velocity[i], gradient) * (mirrored * volume);
                 sum += w(r);
-                filling += volume * w(r);
+                surrounded += volume * gradient.dot(away);
                 if !self.is_wall(j) && self.material[j] == self.material[i] {
                     let difference = self.excess[j] - e - at_rest.dot(away);
                     diffused += volume * difference * gradient.dot(away) / (r * r);
@@ -204,7 +204,11 @@ impl Reference {
                     match fluid.negative_pressure {
                         NegativePressure::Clamp => {
                             let moved = moved.max(-(fluid.max_speed / fluid.sound_speed).powi(2));
-                            if filling < 0.4 { moved.min(0.0) } else { moved }
+                            if surrounded < 0.15 * self.dimensions as f64 {
+                                moved.min(0.0)
+                            } else {
+                                moved
+                            }
                         }
                         _ => moved,
                     }

@@ -21,8 +21,9 @@ var<storage, read> excess: array<f32>; // of the step before
 const MIRRORED: f32 = 2.0;
 #end
 #if clamped_pressure
-// Share of the kernel that is filled around a particle that has left the fluid: itself and one other.
-const SEVERED: f32 = 0.4;
+// A particle has left the fluid where the divergence of positions (Lee 2008), which is DIMENSIONS inside, is below this:
+// one neighbor or two at most.
+const SEVERED: f32 = 0.15 * f32(DIMENSIONS);
 #end
 // Below this determinant a particle has too few neighbors for its gradients to be corrected.
 const FEW_NEIGHBORS: f32 = 0.3;
@@ -40,7 +41,7 @@ fn find_density(thread: Thread) {
     let before = excess[i];
     var divergence = 0.0;
 #if clamped_pressure
-    var filling = volume_at(before) * kernel(0.0);
+    var surrounded = 0.0; // divergence of positions
 #end
     var diffused = 0.0;
     // What density gains along gravity at rest, which must not diffuse (Fourtakas 2019): dρ/ρ₀ = (ρ/ρ₀)^(2−γ) g·dx/c².
@@ -65,7 +66,7 @@ fn find_density(thread: Thread) {
                 let other = excess[j];
                 let weight = volume_at(other) * kernel_slope(r);
 #if clamped_pressure
-                filling += volume_at(other) * kernel(r);
+                surrounded -= weight * dot(s, s);
 #end
                 let relative = unpack(velocity[j]) - v;
 #if gradient_correction
@@ -99,7 +100,7 @@ fn find_density(thread: Thread) {
         let weight = cell.share * volume_at(before) * kernel_slope(r);
         let relative = cell.velocity - v;
 #if clamped_pressure
-        filling += cell.share * volume_at(before) * kernel(r);
+        surrounded -= weight * r * r;
 #end
 #if gradient_correction
         moment -= weight * outer(cell.way, cell.way);
@@ -132,7 +133,7 @@ fn find_density(thread: Thread) {
     e = max(e, fluid.lowest_excess);
     // What has left the fluid is under the air's pressure: with the one that it left at, drops would hover on each
     // other as a gas does.
-    e = select(e, min(e, 0.0), filling < SEVERED);
+    e = select(e, min(e, 0.0), surrounded < SEVERED);
 #end
 #else
     let e = fluid.volume * sum - 1.0;

@@ -177,7 +177,8 @@ pub enum NegativePressure {
     /// They stay, and pull.
     Keep,
     /// They count as zero: fluid tears instead of pulling, and torn fluid keeps at most as far below rest density as the
-    /// expected speed makes it vary.
+    /// expected speed makes it vary. What has left the fluid of a solver with `continuity` is under the air's pressure,
+    /// so that spray falls and does not hover as a gas.
     #[default]
     Clamp,
     /// They act through the difference of pressures, which cannot clump particles (Sun 2018).
