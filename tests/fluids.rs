@@ -55,7 +55,7 @@ fn stirred(dimensions: usize, steps: u32, overrides: &[&str]) -> Scene {
     scene
 }
 
-const SOLVERS: [&[&str]; 11] = [
+const SOLVERS: [&[&str]; 12] = [
     &[],
     &["time.integrator=velocity_verlet", "fluid.viscosity=5"],
     &["fluid.solver=sph", "fluid.viscosity=5"],
@@ -69,6 +69,7 @@ const SOLVERS: [&[&str]; 11] = [
         "fluid.artificial_viscosity=0.2",
         "fluid.kernel=wendland_c4",
     ],
+    &["fluid.artificial_viscosity=0.2", "fluid.slip=free_slip"],
     &[
         "fluid.viscosity=5",
         "fluid.viscosity_form=stress",
@@ -301,6 +302,34 @@ fn nothing_leaks() {
         }
         let fastest = found.velocity.iter().map(|v| v.length()).fold(0.0, f32::max);
         assert!(fastest < 0.2, "after six seconds still {fastest} m/s");
+    }
+}
+
+/// A layer slides over the floor: walls along which it slips take nothing of its speed, others do.
+#[test]
+fn walls_that_slip_do_not_brake() {
+    for walls in ["particles", "planes"] {
+        for (slip, kept) in [("free_slip", 0.98..1.001), ("no_slip", 0.0..0.8)] {
+            let (walls, slip) = (format!("domain.walls={walls}"), format!("fluid.slip={slip}"));
+            let scene = common::fluid(
+                2,
+                &[
+                    walls.as_str(),
+                    slip.as_str(),
+                    "colliders=[]",
+                    "domain.sides={\"x_min\":\"periodic\",\"x_max\":\"periodic\"}",
+                    "fluid.artificial_viscosity=0.2",
+                    "fluid.max_speed=2",
+                    "bodies=[{\"shape\":{\"kind\":\"box\",\"min\":[0,0],\"max\":[1,0.2]},\
+                     \"velocity\":[1,0],\"pressure\":\"hydrostatic\"}]",
+                    "time.duration=1",
+                    "time.fps=1",
+                ],
+            );
+            let found = particles(&scene, 1);
+            let speed = found.velocity.iter().map(|v| v.x).sum::<f32>() / found.len() as f32;
+            assert!(kept.contains(&speed), "{walls}, {slip}: {speed} of 1 m/s is left");
+        }
     }
 }
 

@@ -54,7 +54,8 @@ pub fn plan(
     let sticks = walls && viscous && fluid.slip == Slip::NoSlip;
     let shifting = fluid.shifting > 0.0;
     let muller = fluid.kernel == Kernel::Muller;
-    let slips = viscous && (walls || planes) && fluid.slip == Slip::FreeSlip;
+    let slips = (walls || planes) && fluid.slip == Slip::FreeSlip;
+    let damped = fluid.artificial_viscosity > 0.0;
     // Walls along which fluid slips say nothing of the velocity's slope.
     let exact_laplacian = fluid.gradient_correction && viscous && !stress && !muller && !slips;
     variant
@@ -74,7 +75,8 @@ pub fn plan(
         .flag("velocity_slopes", shifting || exact_laplacian)
         .flag("stress_form", stress)
         .flag("surface_tension", tension)
-        .flag("artificial_viscosity", fluid.artificial_viscosity > 0.0)
+        .flag("artificial_viscosity", damped)
+        .flag("wall_damping", slips && damped)
         .flag("muller_kernels", muller)
         .flag(
             "monaghan_pressure",
@@ -94,7 +96,10 @@ pub fn plan(
         )
         .flag("gradient_correction", fluid.gradient_correction)
         .flag("shifting", shifting)
-        .flag("matrices", fluid.gradient_correction || stress || shifting)
+        .flag(
+            "matrices",
+            fluid.gradient_correction || stress || shifting || (slips && damped),
+        )
         .flag("planes", planes)
         .flag("rim", rim)
         .flag("statistics", statistics);

@@ -307,6 +307,8 @@ impl Reference {
             let normal = self.surface_normal[i];
             let (mut turned, mut seen) = (0.0, 0.0);
             let mut offset = DVec3::ZERO;
+            let (mut inwards, mut against) = (DVec3::ZERO, 0.0);
+            let (mut wall_velocity, mut damping) = (DVec3::ZERO, DMat3::ZERO);
             let (mut crowd, mut slopes, mut excess_slope) = (DVec3::ZERO, DMat3::ZERO, DVec3::ZERO);
             for (j, away, r, gradient) in self.neighbors(i) {
                 let volume = self.volume(j);
@@ -354,12 +356,26 @@ impl Reference {
                 }
                 let approach = (self.velocity[j] - self.velocity[i]).dot(away).min(0.0);
                 let strength = fluid.artificial_viscosity * half * fluid.sound_speed;
-                drag += volume * density * strength * approach / (r * r + 0.01 * half * half) * gradient;
+                let damped = strength / (r * r + 0.01 * half * half);
+                if slides {
+                    let steep = volume * gradient.dot(away) / (r * r);
+                    inwards += steep * away;
+                    against += steep;
+                    wall_velocity += steep * self.velocity[j];
+                    damping += outer(away, away) * (steep * damped);
+                } else {
+                    drag += volume * density * damped * approach * gradient;
+                }
                 let near = kernels::value(fluid.kernel, self.dimensions, h, r)
                     / kernels::value(fluid.kernel, self.dimensions, h, fluid.spacing);
                 crowd += volume * (1.0 + 0.2 * near.powi(4)) * gradient;
                 slopes += outer(apart, gradient) * volume;
                 excess_slope += volume * (self.excess[j] - self.excess[i]) * gradient;
+            }
+            if against > 0.0 {
+                let inwards = inwards.normalize_or_zero();
+                let nearing = (wall_velocity / against - self.velocity[i]).dot(inwards).min(0.0);
+                drag += density * nearing * inwards.dot(damping * inwards) * inwards;
             }
             if seen != 0.0 {
                 let curved = (self.dimensions - 1) as f64;

@@ -43,6 +43,12 @@ fn forces_on(i: u32) -> Forces {
 #if laplacian_correction
     var offset = Vector(0.0); // where the weights of viscous forces are not balanced
 #end
+#if wall_damping
+    var inwards = Vector(0.0); // into the walls around
+    var against = 0.0; // how much of them is near, 1/m²
+    var wall_velocity = Vector(0.0);
+    var damping = Matrix();
+#end
 #if shifting
     var crowd = Vector(0.0);
     var excess_slope = Vector(0.0);
@@ -115,8 +121,16 @@ fn forces_on(i: u32) -> Forces {
                 seen -= part * dot(along, along);
 #end
 #if artificial_viscosity
-                let approach = min(dot(unpack(velocity[j]) - v, s), 0.0);
+                var approach = min(dot(unpack(velocity[j]) - v, s), 0.0);
                 let square = dot(s, s) + fluid.smallest_square;
+#if wall_damping
+                approach = select(approach, 0.0, is_wall(j));
+                let wall = select(0.0, -weight, is_wall(j));
+                inwards += wall * s;
+                against += wall;
+                wall_velocity += wall * unpack(velocity[j]);
+                damping += (wall / square) * outer(s, s);
+#end
                 drag -= (weight * density * fluid.artificial_viscosity * approach / square) * s;
 #end
 #if velocity_slopes
@@ -170,9 +184,16 @@ fn forces_on(i: u32) -> Forces {
 #end
 #end
 #if artificial_viscosity
-        let approach = min(dot(apart, s), 0.0);
         let square = dot(s, s) + fluid.smallest_square;
+#if wall_damping
+        inwards -= weight * s;
+        against -= weight;
+        wall_velocity -= weight * cell.velocity;
+        damping -= (weight / square) * outer(s, s);
+#else
+        let approach = min(dot(apart, s), 0.0);
         drag -= (weight * density * fluid.artificial_viscosity * approach / square) * s;
+#end
 #end
 #if shifting
         let near = kernel(r) / fluid.kernel_at_spacing;
@@ -205,6 +226,12 @@ fn forces_on(i: u32) -> Forces {
 #if shifting
     excess_slope = exact * excess_slope;
 #end
+#end
+#if wall_damping
+    // Walls that slip damp what comes nearer and leave alone what goes along them.
+    inwards = inwards / max(length(inwards), 1e-30);
+    let nearing = min(dot(wall_velocity / max(against, 1e-30) - v, inwards), 0.0);
+    drag += (density * fluid.artificial_viscosity * nearing * dot(inwards, damping * inwards)) * inwards;
 #end
     var forces = Forces();
 #if surface_tension

@@ -22,7 +22,8 @@ pub struct Fluid {
     pub viscosity: f64,
     #[serde(default)]
     pub viscosity_form: ViscosityForm,
-    /// Artificial viscosity α (Monaghan 1992); keeps impacts stable.
+    /// Artificial viscosity α (Monaghan 1992); keeps impacts stable. Walls along which fluid slips damp only what
+    /// comes nearer.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub artificial_viscosity: f64,

@@ -8,7 +8,7 @@ use glam::{DVec3, IVec3};
 use super::least_squares;
 
 /// Radius of the kernel over the spacing of particles.
-const REACH: f64 = 2.5;
+pub const REACH: f64 = 2.5;
 /// Points along an axis that a kernel's share of a box is counted with.
 const POINTS: i32 = 50;
 

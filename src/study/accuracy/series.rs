@@ -57,6 +57,11 @@ impl Series {
         Self::new(self.points().map(|(t, v)| (t * time, v * value)))
     }
 
+    /// The points from `from` to `to`.
+    pub fn within(&self, from: f64, to: f64) -> Self {
+        Self::new(self.points().filter(|&(t, _)| (from..=to).contains(&t)))
+    }
+
     /// The value at a time; none before the first and after the last.
     pub fn at(&self, time: f64) -> Option<f64> {
         let next = self.times.partition_point(|&t| t < time);
@@ -140,8 +145,8 @@ impl Series {
     /// Root of the mean square of the difference to `other`, at the times of `other` from `from` to `to`; none where
     /// this series does not reach that far.
     pub fn rms_difference(&self, other: &Self, from: f64, to: f64) -> Option<f64> {
-        let within = other.points().filter(|&(t, _)| (from..=to).contains(&t));
-        mean_square(within.map(|(time, value)| Some(self.at(time)? - value)))
+        let within = other.within(from, to);
+        mean_square(within.points().map(|(time, value)| Some(self.at(time)? - value)))
     }
 
     /// How well this series follows `measured` points whose times are moved by `shift`; none unless it reaches all.

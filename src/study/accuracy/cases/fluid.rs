@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::columns::{scalars, vectors};
 use crate::error::Result;
-use crate::scene::model::{DensityFrom, PressureForce, Wall};
+use crate::scene::model::{DensityFrom, PressureForce, Slip, Wall};
 use crate::scene::{Dimensions, Scene, library, load};
 use crate::study::accuracy::record::{Figure, Method, Record};
 use crate::study::accuracy::run::{Run, run};
@@ -116,6 +116,10 @@ fn method(scene: &Scene) -> Method {
         (
             (support - usual_support).abs() > 1e-6,
             format!("support {support:.1}"),
+        ),
+        (
+            walls.is_some() && fluid.slip == Slip::FreeSlip,
+            "free slip".to_owned(),
         ),
     ];
     Method {
