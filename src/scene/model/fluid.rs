@@ -189,7 +189,7 @@ pub enum NegativePressure {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Slip {
-    /// It sticks.
+    /// It sticks, and artificial viscosity with it: thin fast layers are braked more than by water's own viscosity.
     #[default]
     NoSlip,
     /// It slides without friction.
