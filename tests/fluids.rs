@@ -333,6 +333,50 @@ fn walls_that_slip_do_not_brake() {
     }
 }
 
+/// What comes down onto a floor that slips is damped, by planes as by particles.
+#[test]
+fn walls_that_slip_damp_what_comes_nearer() {
+    let damped = |walls: &str| {
+        let speeds = ["0", "0.5"].map(|alpha| {
+            let (walls, alpha) = (
+                format!("domain.walls={walls}"),
+                format!("fluid.artificial_viscosity={alpha}"),
+            );
+            let mut scene = common::fluid(
+                2,
+                &[
+                    walls.as_str(),
+                    alpha.as_str(),
+                    "fluid.slip=free_slip",
+                    "gravity=[0,0]",
+                    "colliders=[]",
+                    "domain.sides={\"x_min\":\"periodic\",\"x_max\":\"periodic\"}",
+                    "bodies=[{\"shape\":{\"kind\":\"box\",\"min\":[0,0],\"max\":[1,0.2]},\"velocity\":[0.3,-0.3]}]",
+                    "time.step=1e-4",
+                ],
+            );
+            scene.time.steps_per_frame = 1;
+            scene.time.fps = 1.0 / scene.time.step;
+            let found = particles(&scene, 1);
+            let lowest = found.position.iter().map(|x| x.y).fold(f32::MAX, f32::min);
+            let floor = |i: &usize| found.position[*i].y < lowest + 0.01;
+            let (x, y): (Vec<f32>, Vec<f32>) = (0..found.len())
+                .filter(floor)
+                .map(|i| (found.velocity[i].x, found.velocity[i].y))
+                .unzip();
+            assert!(x.iter().all(|x| (x - 0.3).abs() < 1e-4), "{walls}: {x:?}");
+            y.iter().sum::<f32>() / y.len() as f32
+        });
+        speeds[1] - speeds[0]
+    };
+    let [particles, planes] = ["particles", "planes"].map(damped);
+    assert!(particles > 1e-4, "{particles}");
+    assert!(
+        (planes / particles - 1.0).abs() < 0.2,
+        "{planes} beside {particles}"
+    );
+}
+
 /// What splashes higher than an open tank finds its sides there too.
 #[test]
 fn splashes_stay_above_their_tank() {
