@@ -77,6 +77,7 @@ pub fn plan(
         .flag("surface_tension", tension)
         .flag("artificial_viscosity", damped)
         .flag("wall_damping", slips && damped)
+        .flag("mirrored_walls", slips || fluid.gradient_correction)
         .flag("muller_kernels", muller)
         .flag(
             "monaghan_pressure",

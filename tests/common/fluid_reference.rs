@@ -170,11 +170,8 @@ impl Reference {
                     DensityFrom::Continuity => self.volume(j),
                 };
                 moment += outer(away, gradient) * volume;
-                let mirrored = if self.is_wall(j) && fluid.gradient_correction {
-                    2.0
-                } else {
-                    1.0
-                };
+                let mirrors = fluid.gradient_correction || fluid.slip == Slip::FreeSlip;
+                let mirrored = if self.is_wall(j) && mirrors { 2.0 } else { 1.0 };
                 slopes += outer(self.velocity[j] - self.velocity[i], gradient) * (mirrored * volume);
                 sum += w(r);
                 surrounded += volume * gradient.dot(away);

@@ -16,9 +16,11 @@ var<storage, read_write> correction: array<Matrix>;
 var<storage, read> excess: array<f32>; // of the step before
 #end
 
-#if gradient_correction
-// A wall mirrors what comes near: the velocity goes on along a straight line beyond it, as exact gradients expect.
+#if mirrored_walls
+// A wall mirrors what comes near: the velocity goes on along a straight line beyond it.
 const MIRRORED: f32 = 2.0;
+#else
+const MIRRORED: f32 = 1.0;
 #end
 #if clamped_pressure
 // A particle has left the fluid where the divergence of positions (Lee 2008), which is DIMENSIONS inside, is below this:
@@ -73,7 +75,7 @@ fn find_density(thread: Thread) {
                 moment -= weight * outer(s, s);
                 slopes -= (weight * select(1.0, MIRRORED, is_wall(j))) * outer(relative, s);
 #else
-                divergence -= weight * dot(relative, s);
+                divergence -= (weight * select(1.0, MIRRORED, is_wall(j))) * dot(relative, s);
 #end
 #if density_diffusion
                 var mixes = !is_wall(j);
@@ -106,7 +108,7 @@ fn find_density(thread: Thread) {
         moment -= weight * outer(cell.way, cell.way);
         slopes -= (MIRRORED * weight) * outer(relative, cell.way);
 #else
-        divergence -= weight * dot(relative, cell.way);
+        divergence -= (MIRRORED * weight) * dot(relative, cell.way);
 #end
 #else
         sum += cell.share * kernel(r);

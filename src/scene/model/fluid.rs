@@ -192,6 +192,6 @@ pub enum Slip {
     /// It sticks, and artificial viscosity with it: thin fast layers are braked more than by water's own viscosity.
     #[default]
     NoSlip,
-    /// It slides without friction.
+    /// It slides without friction; walls mirror what comes near.
     FreeSlip,
 }
