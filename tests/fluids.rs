@@ -333,11 +333,11 @@ fn walls_that_slip_do_not_brake() {
     }
 }
 
-/// What comes down onto a floor that slips is damped, by planes as by particles.
+/// What comes down onto a floor that slips is pressed together and damped, by planes as by particles.
 #[test]
-fn walls_that_slip_damp_what_comes_nearer() {
-    let damped = |walls: &str| {
-        let speeds = ["0", "0.5"].map(|alpha| {
+fn walls_that_slip_press_and_damp_what_comes_nearer() {
+    let met = |walls: &str| {
+        let [(speed, pressed), (damped, _)] = ["0", "0.5"].map(|alpha| {
             let (walls, alpha) = (
                 format!("domain.walls={walls}"),
                 format!("fluid.artificial_viscosity={alpha}"),
@@ -365,16 +365,20 @@ fn walls_that_slip_damp_what_comes_nearer() {
                 .map(|i| (found.velocity[i].x, found.velocity[i].y))
                 .unzip();
             assert!(x.iter().all(|x| (x - 0.3).abs() < 1e-4), "{walls}: {x:?}");
-            y.iter().sum::<f32>() / y.len() as f32
+            let pressed = found.excess.iter().fold(0.0, |most: f32, &e| most.max(e));
+            (y.iter().sum::<f32>() / y.len() as f32, pressed)
         });
-        speeds[1] - speeds[0]
+        [pressed, damped - speed]
     };
-    let [particles, planes] = ["particles", "planes"].map(damped);
-    assert!(particles > 1e-4, "{particles}");
-    assert!(
-        (planes / particles - 1.0).abs() < 0.2,
-        "{planes} beside {particles}"
-    );
+    let [particles, planes] = ["particles", "planes"].map(met);
+    for (what, (particles, planes)) in ["pressed", "damped"]
+        .iter()
+        .zip(particles.into_iter().zip(planes))
+    {
+        assert!(particles > 1e-4, "{what}: {particles}");
+        let apart = (planes / particles - 1.0).abs();
+        assert!(apart < 0.2, "{what}: {planes} beside {particles}");
+    }
 }
 
 /// What splashes higher than an open tank finds its sides there too.

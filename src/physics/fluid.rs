@@ -56,6 +56,7 @@ pub fn plan(
     let muller = fluid.kernel == Kernel::Muller;
     let slips = (walls || planes) && fluid.slip == Slip::FreeSlip;
     let damped = fluid.artificial_viscosity > 0.0;
+    let wall_damping = slips && damped;
     // Walls along which fluid slips say nothing of the velocity's slope.
     let exact_laplacian = fluid.gradient_correction && viscous && !stress && !muller && !slips;
     variant
@@ -76,7 +77,7 @@ pub fn plan(
         .flag("stress_form", stress)
         .flag("surface_tension", tension)
         .flag("artificial_viscosity", damped)
-        .flag("wall_damping", slips && damped)
+        .flag("wall_damping", wall_damping)
         .flag("mirrored_walls", slips || fluid.gradient_correction)
         .flag("muller_kernels", muller)
         .flag(
@@ -99,7 +100,7 @@ pub fn plan(
         .flag("shifting", shifting)
         .flag(
             "matrices",
-            fluid.gradient_correction || stress || shifting || (slips && damped),
+            fluid.gradient_correction || stress || shifting || wall_damping,
         )
         .flag("planes", planes)
         .flag("rim", rim)
