@@ -133,6 +133,19 @@ impl<'a> Sampler<'a> {
         sum / all.max(full)
     }
 
+    /// Depth of the water on a line upwards (y) in 3D: the volume over an area, weighted by the kernel of two
+    /// dimensions, of what is at most `most` above `floor`, m. What a wire shows that measures how much of it is wet;
+    /// unlike [`Self::height`] it means something where water is broken up. Sides have to be out of the kernel's reach.
+    pub fn depth(&self, floor: DVec3, most: f64) -> f64 {
+        let near = |place: &&DVec3| place.y - floor.y <= most;
+        let aside = |place: &DVec3| {
+            self.nearest((*place - floor) * DVec3::new(1.0, 0.0, 1.0))
+                .length()
+        };
+        let weight = |place: &DVec3| kernel(2, aside(place) / (REACH * self.spacing));
+        self.position.iter().filter(near).map(weight).sum::<f64>() * self.spacing
+    }
+
     /// Height of the water above `floor` (m): the highest point on the line upwards (y) from it where the filling is
     /// above one half, up to `most`; 0 where there is none. A particle that flies alone is no water.
     pub fn height(&self, floor: DVec3, most: f64) -> f64 {
@@ -297,6 +310,14 @@ mod tests {
             let height = sampler.height(floor, 1.0);
             assert!((height - 0.6).abs() < 0.1 * SPACING, "{height}");
             assert_eq!(sampler.height(floor + DVec3::X * 2.0, 1.0), 0.0);
+            if dimensions == 3 {
+                // The drop counts where the line is long enough.
+                let (water, all) = (sampler.depth(floor, 0.8), sampler.depth(floor, 1.0));
+                assert!((water - 0.6).abs() < 0.1 * SPACING, "{water}");
+                let drop = 7.0 / (PI * REACH.powi(2)) * SPACING;
+                assert!((all - water - drop).abs() < 1e-9, "{all}");
+                assert_eq!(sampler.depth(floor + DVec3::X * 2.0, 1.0), 0.0);
+            }
         }
     }
 }
