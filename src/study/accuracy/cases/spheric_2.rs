@@ -20,8 +20,8 @@ pub const CASE: Case = Case {
             much of them is wet, also in the splash behind the box), compared over the run; those of the highest wet \
             point are told too. Arrival is told at the lowest pressure sensor on the box, which also gives the peak, and \
             at the two gauges that the front passes on its way: the measured one is far ahead at the first already, so \
-            that its clock seems to start after the water does. The time from H2 to the box needs no clock. 30 particles over the height are the benchmark's own spacing, 0.0183 m. Small studies end after \
-            2 s, tiny ones after 0.5 s.",
+            that its clock seems to start after the water does. The time from H2 to the box needs no clock. 30 particles \
+            over the height are the benchmark's own spacing, 0.0183 m. Small studies end after 2 s, tiny ones after 0.5 s.",
     resolution: "particles high",
     label: |n| n.to_string(),
     resolutions: |size| match size {
