@@ -313,7 +313,8 @@ mod tests {
             if dimensions == 3 {
                 // The drop counts where the line is long enough.
                 let (water, all) = (sampler.depth(floor, 0.8), sampler.depth(floor, 1.0));
-                assert!((water - 0.6).abs() < 0.1 * SPACING, "{water}");
+                // Within the error of the kernel's sum over a lattice.
+                assert!((water - 0.6).abs() < 0.2 * SPACING, "{water}");
                 let drop = 7.0 / (PI * REACH.powi(2)) * SPACING;
                 assert!((all - water - drop).abs() < 1e-9, "{all}");
                 assert_eq!(sampler.depth(floor + DVec3::X * 2.0, 1.0), 0.0);
