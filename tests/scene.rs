@@ -354,6 +354,31 @@ fn a_few_overlaps_are_left_out_and_told() {
     assert_eq!((scene.particles.len(), scene.notes.len()), (128, 0));
 }
 
+/// A lattice begins at its body's lower corner; what does not go into the body is a gap at the other side.
+#[test]
+fn fluid_that_ends_before_a_wall_is_told() {
+    let notes = |overrides: &[&str]| {
+        let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        load::load(Path::new("spheric_2"), &overrides).unwrap().notes
+    };
+    let coarse = "fluid.spacing=0.0366";
+    let told = notes(&[coarse]);
+    assert_eq!(told.len(), 2, "{told:?}");
+    assert!(
+        told[0].starts_with("bodies[0]: 33 particles fill 1.228 m along x but for 0.0202 m, a gap"),
+        "{told:?}"
+    );
+    assert!(
+        told[1].contains("along z") && told[1].ends_with("a spacing of 0.037037 m leaves none"),
+        "{told:?}"
+    );
+    // There is nothing beside the water to leave a gap to, and air above it.
+    let aside = "bodies[0].shape.max=[3.1,0.54,0.9]";
+    assert_eq!(notes(&[coarse, aside]), [""; 0]);
+    let open = r#"domain.sides={"x_max":"open","y_max":"open","z_max":"open"}"#;
+    assert_eq!(notes(&[coarse, open]), [""; 0]);
+}
+
 #[test]
 fn grains_inside_colliders_are_left_out() {
     let shapes = [

@@ -10,7 +10,7 @@ use super::fit::{self, Grains, Placed};
 use super::fluid;
 use super::frame::{Frame, Report};
 use super::mesh::Mesh;
-use super::model::{self, Arrangement, Body, SceneFile, Shape};
+use super::model::{self, Arrangement, Body, SceneFile, Shape, Wall};
 use super::obstacles::{self, FILE_MEND, check_corners, transform};
 use super::shapes::{self, Region};
 use super::text::number;
@@ -192,6 +192,11 @@ fn grains(
     // Each body has its own stream, so that changing one body leaves the others as they were.
     let mut random = ChaCha8Rng::seed_from_u64(file.seed);
     random.set_stream(index as u64);
+    if let (Region::Box { min, max }, Arrangement::Lattice, true) =
+        (&region, body.arrangement, file.fluid.is_some())
+    {
+        gaps(&path, *min, *max, spacing, frame, report);
+    }
     let position = match body.arrangement {
         Arrangement::Lattice => shapes::lattice(
             &region,
@@ -205,6 +210,28 @@ fn grains(
     };
     let velocity = vec![velocity; position.len()];
     Some(Grains { position, velocity })
+}
+
+/// Spacings that may be left over between a box of fluid and a wall before that is told.
+const LEFT_OVER: f64 = 0.25;
+
+/// Tells where a box of fluid reaches a side of the domain and its lattice, which begins at the lower corner, does not.
+fn gaps(path: &str, min: DVec3, max: DVec3, spacing: f64, frame: &Frame, report: &mut Report) {
+    for (axis, name) in ["x", "y", "z"].iter().enumerate().take(frame.dimensions.count()) {
+        let beside = frame.sides[axis][1] != Wall::Open && frame.max[axis] - max[axis] < LEFT_OVER * spacing;
+        let length = max[axis] - min[axis];
+        let fitting = (length / spacing * (1.0 + 1e-6)).floor();
+        let left = length - fitting * spacing;
+        if beside && fitting >= 1.0 && left > LEFT_OVER * spacing {
+            report.notes.push(format!(
+                "{path}: {fitting} particles fill {} m along {name} but for {} m, a gap at the domain's side that the fluid \
+                 falls into; a spacing of {} m leaves none",
+                number(length),
+                number(left),
+                number(length / (length / spacing).round())
+            ));
+        }
+    }
 }
 
 /// Local coordinates.
