@@ -192,11 +192,6 @@ fn grains(
     // Each body has its own stream, so that changing one body leaves the others as they were.
     let mut random = ChaCha8Rng::seed_from_u64(file.seed);
     random.set_stream(index as u64);
-    if let (Region::Box { min, max }, Arrangement::Lattice, true) =
-        (&region, body.arrangement, file.fluid.is_some())
-    {
-        gaps(&path, *min, *max, spacing, frame, report);
-    }
     let position = match body.arrangement {
         Arrangement::Lattice => shapes::lattice(
             &region,
@@ -208,6 +203,11 @@ fn grains(
         ),
         Arrangement::Random => shapes::random(&region, frame.dimensions, radius, body.fraction, &mut random),
     };
+    if let (Region::Box { min, max }, Arrangement::Lattice, true) =
+        (&region, body.arrangement, file.fluid.is_some())
+    {
+        gaps(&path, *min, *max, spacing, &position, frame, report);
+    }
     let velocity = vec![velocity; position.len()];
     Some(Grains { position, velocity })
 }
@@ -216,16 +216,27 @@ fn grains(
 const LEFT_OVER: f64 = 0.25;
 
 /// Tells where a box of fluid reaches a side of the domain and its lattice, which begins at the lower corner, does not.
-fn gaps(path: &str, min: DVec3, max: DVec3, spacing: f64, frame: &Frame, report: &mut Report) {
-    for (axis, name) in ["x", "y", "z"].iter().enumerate().take(frame.dimensions.count()) {
+fn gaps(
+    path: &str,
+    min: DVec3,
+    max: DVec3,
+    spacing: f64,
+    position: &[DVec3],
+    frame: &Frame,
+    report: &mut Report,
+) {
+    let Some(end) = position.iter().copied().reduce(DVec3::max) else {
+        return;
+    };
+    for (axis, name) in frame.axes() {
         let beside = frame.sides[axis][1] != Wall::Open && frame.max[axis] - max[axis] < LEFT_OVER * spacing;
         let length = max[axis] - min[axis];
-        let fitting = (length / spacing * (1.0 + 1e-6)).floor();
-        let left = length - fitting * spacing;
-        if beside && fitting >= 1.0 && left > LEFT_OVER * spacing {
+        let left = max[axis] - end[axis] - 0.5 * spacing;
+        if beside && left > LEFT_OVER * spacing {
             report.notes.push(format!(
-                "{path}: {fitting} particles fill {} m along {name} but for {} m, a gap at the domain's side that the fluid \
-                 falls into; a spacing of {} m leaves none",
+                "{path}: {} particles fill {} m along {name} but for {} m, a gap at the domain's side that the fluid falls \
+                 into; a spacing of {} m leaves none",
+                ((length - left) / spacing).round(),
                 number(length),
                 number(left),
                 number(length / (length / spacing).round())

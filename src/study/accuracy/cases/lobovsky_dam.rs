@@ -24,10 +24,10 @@ pub const CASE: Case = Case {
             fluid within 8 spacings, since the peak depends on what it is averaged over. Walls slip, with support \
             and speed of sound as TrixiParticles has them; a second method has walls that stick, which slow the front \
             and pile it up. A splash is chaotic: like those of the experiment, figures are medians of several runs (5 in \
-            full studies, 3 in small ones), whose particles start up to 0.01 spacings elsewhere. Times count from the arrival at the sensor, since the experiment's gate takes time to open. The \
-            plateau is the mean from 0.5 to 2 √(H/g) after arrival and the impulse the integral from arrival to \
-            2 √(H/g) after it, both 15 mm above the floor and judged by the same figures of the experiments' 2.5 and \
-            97.5 percentiles.",
+            full studies, 3 in small ones), whose particles start up to 0.01 spacings elsewhere. Times count from the \
+            arrival at the sensor, since the experiment's gate takes time to open. The plateau is the mean from 0.5 to \
+            2 √(H/g) after arrival and the impulse the integral from arrival to 2 √(H/g) after it, both 15 mm above the \
+            floor and judged by the same figures of the experiments' 2.5 and 97.5 percentiles.",
     resolution: "particles high",
     label: |n| n.to_string(),
     resolutions: |size| match size {

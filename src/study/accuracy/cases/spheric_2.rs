@@ -6,6 +6,7 @@ use super::Case;
 use super::fluid::{flow, record, shipped, spacing};
 use crate::error::Result;
 use crate::study::Size;
+use crate::study::accuracy::norms::Norms;
 use crate::study::accuracy::record::{Bar, Figure, Record};
 use crate::study::accuracy::reference;
 use crate::study::accuracy::sampler::{Sampler, share};
@@ -89,7 +90,7 @@ fn one(bench: &Bench, size: Size, n: u32) -> Result<Record> {
         lost = flow.position.iter().filter(|p| !inside(p)).count();
     })?;
     let levels: Vec<Series> = (1..=GAUGES.len())
-        .map(|gauge| Ok(reference::spheric_2(&format!("H{gauge}"))?.within(0.01, run.simulated)))
+        .map(|gauge| reference::spheric_2(&format!("H{gauge}")))
         .collect::<Result<_>>()?;
     let centimetres = |gauges: &[Series]| -> Option<Vec<f64>> {
         let pairs = gauges.iter().zip(&levels);
@@ -97,9 +98,10 @@ fn one(bench: &Bench, size: Size, n: u32) -> Result<Record> {
             .map(|(ours, theirs)| Some(100.0 * ours.rms_difference(theirs, 0.01, run.simulated)?))
             .collect()
     };
-    let worst = |all: &Vec<f64>| all.iter().copied().fold(0.0, f64::max);
-    let (rms, rms_of_tops) = (centimetres(&depths), centimetres(&tops));
-    let all = rms.as_ref().map(|all| root_mean_square(all));
+    let over_all = |rms: &Vec<f64>| Norms::new(rms.iter().map(|&rms| (rms, 0.0)));
+    let rms = centimetres(&depths);
+    let all = rms.as_ref().map(over_all);
+    let all_tops = centimetres(&tops).as_ref().map(over_all);
     let measured = reference::spheric_2("P1")?;
     let peak = sensor
         .peak()
@@ -108,7 +110,7 @@ fn one(bench: &Bench, size: Size, n: u32) -> Result<Record> {
     let arrival = late(&sensor, &measured, ARRIVED);
     let passing = [0, 1].map(|gauge| late(&depths[gauge], &levels[gauge], PASSED));
     let mut figures = vec![
-        Figure::new(HEIGHTS, rms.as_ref().map(worst), "cm").bar(Bar::AtMost(3.0)),
+        Figure::new(HEIGHTS, all.map(|all| all.largest), "cm").bar(Bar::AtMost(3.0)),
         Figure::new("arrival after the measured one", arrival, "ms").bar(Bar::Within(-10.0, 10.0)),
         Figure::new("the front passes H1 after the measured one", passing[0], "ms"),
         Figure::new("the front passes H2 after the measured one", passing[1], "ms"),
@@ -126,10 +128,10 @@ fn one(bench: &Bench, size: Size, n: u32) -> Result<Record> {
         )
         .bar(Bar::Within(-20.0, 20.0)),
         Figure::new("particles lost", lost as f64, "").bar(Bar::AtMost(0.0)),
-        Figure::new("RMS of all gauges", all, "cm"),
+        Figure::new("RMS of all gauges", all.map(|all| all.l2), "cm"),
         Figure::new(
             "worst RMS of the highest wet points",
-            rms_of_tops.as_ref().map(worst),
+            all_tops.map(|all| all.largest),
             "cm",
         ),
     ];
@@ -138,10 +140,6 @@ fn one(bench: &Bench, size: Size, n: u32) -> Result<Record> {
         figures.push(Figure::new(format!("RMS of H{}", gauge + 1), rms, "cm"));
     }
     Ok(record(bench, CASE.name, &scene, n, run, figures))
-}
-
-fn root_mean_square(values: &[f64]) -> f64 {
-    (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
 }
 
 /// How much later one series reaches a value than another, ms.
