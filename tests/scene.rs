@@ -345,7 +345,7 @@ fn a_few_overlaps_are_left_out_and_told() {
     assert_eq!(scene.particles.len(), 64 + 48);
     assert_eq!(
         scene.notes,
-        ["bodies[1]: 16 of 64 grains overlap bodies[0] and were left out"]
+        ["bodies[1]: 16 of 64 particles overlap bodies[0] and were left out"]
     );
     // Side by side nothing overlaps.
     given["bodies"][1]["shape"]["min"] = json!([0, 0.4, 0]);
@@ -354,29 +354,84 @@ fn a_few_overlaps_are_left_out_and_told() {
     assert_eq!((scene.particles.len(), scene.notes.len()), (128, 0));
 }
 
-/// A lattice begins at its body's lower corner; what does not go into the body is a gap at the other side.
+/// Whatever the spacing, water reaches every wall that its box reaches, and has the box's volume.
 #[test]
-fn fluid_that_ends_before_a_wall_is_told() {
-    let notes = |overrides: &[&str]| {
+fn fluid_fills_its_boxes_from_wall_to_wall() {
+    let scene = |overrides: &[&str]| {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
-        load::load(Path::new("spheric_2"), &overrides).unwrap().notes
+        load::load(Path::new("spheric_2"), &overrides).unwrap()
     };
-    let coarse = "fluid.spacing=0.0366";
-    let told = notes(&[coarse]);
-    assert_eq!(told.len(), 2, "{told:?}");
+    for (spacing, counts) in [("0.0366", [34, 15, 27]), ("0.05", [25, 11, 20])] {
+        let scene = scene(&[&format!("fluid.spacing={spacing}")]);
+        let number: usize = counts.iter().product();
+        assert_eq!(scene.first_wall() as usize, number, "{spacing}");
+        let water = &scene.positions()[..number];
+        let (low, high) = water.iter().fold((Vec3::MAX, Vec3::MIN), |(low, high), p| {
+            (low.min(*p), high.max(*p))
+        });
+        let box_ =
+            [Vec3::new(1.992, 0.0, 0.0), Vec3::new(3.22, 0.55, 1.0)].map(|p| p - scene.origin.as_vec3());
+        let half = (box_[1] - box_[0]) / Vec3::from(counts.map(|n| 2.0 * n as f32));
+        // Water under its own weight is a little lower.
+        let lower = Vec3::new(0.0, 0.0015, 0.0);
+        assert!(
+            (low - box_[0] - half).abs().max_element() < 2e-4,
+            "{spacing}: {low}"
+        );
+        assert!(
+            (box_[1] - high - half - lower).abs().max_element() < 2e-4,
+            "{spacing}: {high}"
+        );
+        let fluid = scene.fluid().unwrap();
+        let volume = number as f64 * fluid.volume(scene.dimensions);
+        assert!(
+            (volume / (1.228 * 0.55) - 1.0).abs() < 1e-6,
+            "{spacing}: {volume} m³"
+        );
+    }
+    let told = scene(&["fluid.spacing=0.045"]).notes;
+    assert_eq!(told.len(), 1, "{told:?}");
     assert!(
-        told[0].starts_with("bodies[0]: 33 particles fill 1.228 m along x but for 0.0202 m, a gap"),
+        told[0].starts_with("fluid.spacing: 0.045 m became 0.04558"),
         "{told:?}"
     );
+    assert_eq!(scene(&[]).notes, [""; 0]);
+}
+
+/// One spacing cannot fill two boxes exactly: neither loses particles to the other, and what is too much is told.
+#[test]
+fn boxes_that_share_a_spacing_stay_whole() {
+    let mut given = json!({
+        "dimensions": 2,
+        "domain": { "min": [0, 0], "max": [1, 1] },
+        "fluid": { "spacing": 0.1 },
+        "bodies": [
+            { "shape": { "kind": "box", "min": [0, 0], "max": [0.46, 0.5] } },
+            { "shape": { "kind": "box", "min": [0.46, 0], "max": [1, 0.53] } }
+        ]
+    });
+    let scene = valid(&given, &[]);
+    assert_eq!(scene.first_wall(), 25 + 25);
+    assert_eq!(scene.notes.len(), 3, "{:?}", scene.notes);
     assert!(
-        told[1].contains("along z") && told[1].ends_with("a spacing of 0.037037 m leaves none"),
-        "{told:?}"
+        scene.notes[1].contains("bodies[0]: is no whole number of spacings long"),
+        "{:?}",
+        scene.notes
     );
-    // There is nothing beside the water to leave a gap to, and air above it.
-    let aside = "bodies[0].shape.max=[3.1,0.54,0.9]";
-    assert_eq!(notes(&[coarse, aside]), [""; 0]);
-    let open = r#"domain.sides={"x_max":"open","y_max":"open","z_max":"open"}"#;
-    assert_eq!(notes(&[coarse, open]), [""; 0]);
+    assert!(
+        scene.notes[1].contains("% more than its box"),
+        "{:?}",
+        scene.notes
+    );
+    assert!(
+        scene.notes[2].contains("% less than its box"),
+        "{:?}",
+        scene.notes
+    );
+    // A spacing that a body asks for stays.
+    given["bodies"][1]["spacing"] = json!(0.1);
+    let scene = valid(&given, &[]);
+    assert_eq!(scene.radius(), 0.05);
 }
 
 #[test]
@@ -393,7 +448,7 @@ fn grains_inside_colliders_are_left_out() {
         assert_eq!(scene.particles.len(), 48, "{shape}");
         assert_eq!(
             scene.notes,
-            ["bodies[0]: 16 of 64 grains overlap colliders[0] and were left out"]
+            ["bodies[0]: 16 of 64 particles overlap colliders[0] and were left out"]
         );
         if let ColliderShape::Plane { normal, .. } = scene.colliders[0].shape {
             assert_eq!(normal, Vec3::Y);

@@ -18,6 +18,7 @@ use crate::output::text::{bytes, count};
 use crate::plan::{Plan, Wanted};
 use crate::scene::{Dimensions, Neighbors, Scene, particle_file};
 use crate::simulation::{NeighborLists, Simulation};
+use crate::study::measure::median;
 use files::Files;
 
 /// Finds all pairs of points nearer than a radius
@@ -197,12 +198,6 @@ fn timed<T>(work: impl FnOnce() -> Result<T>) -> Result<(T, f64)> {
 
 fn milliseconds(since: Instant) -> f64 {
     since.elapsed().as_secs_f64() * 1e3
-}
-
-/// The middle one; of two, the lower.
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_unstable_by(f64::total_cmp);
-    values[(values.len() - 1) / 2]
 }
 
 struct Report<'a> {

@@ -10,7 +10,7 @@ use super::fit::{self, Grains, Placed};
 use super::fluid;
 use super::frame::{Frame, Report};
 use super::mesh::Mesh;
-use super::model::{self, Arrangement, Body, SceneFile, Shape, Wall};
+use super::model::{self, Arrangement, Body, SceneFile, Shape};
 use super::obstacles::{self, FILE_MEND, check_corners, transform};
 use super::shapes::{self, Region};
 use super::text::number;
@@ -26,35 +26,36 @@ pub struct Filled {
     pub bodies: Vec<std::ops::Range<usize>>,
 }
 
-/// Fills every body.
+/// Fills every body, whose lattices are stretched by `stretches` along the axes.
 pub fn fill(
     file: &SceneFile,
+    stretches: &[DVec3],
     frame: &Frame,
     colliders: &[Collider],
     folder: &Path,
     report: &mut Report,
 ) -> Filled {
-    let radius = file.radius();
+    // How near particles of a body may come to others, a stretched lattice's nearer than a spacing.
+    let reach = |stretch: &DVec3| file.radius() * stretch.min_element().min(1.0);
+    let nearest = stretches.iter().map(reach).fold(file.radius(), f64::min);
+    let mut placed = Placed::new(2.0 * nearest);
     let mut bodies = Vec::new();
-    let mut placed = Placed::new(2.0 * radius);
     let mut particles = Particles::default();
     for (i, body) in file.bodies.iter().enumerate() {
         let path = format!("bodies[{i}]");
         let first = particles.len();
         bodies.push(first..first);
-        let Some(mut grains) = grains(i, body, file, frame, folder, report) else {
+        let Some(mut grains) = grains(i, body, stretches[i], file, frame, folder, report) else {
             continue;
         };
         if grains.position.is_empty() {
-            let mend = format!(
-                "make its shape larger or grains.radius ({} m) smaller",
-                number(radius)
-            );
-            report.problem(&path, "is empty: not one grain fits", mend);
+            let mend = format!("make its shape larger or {} smaller", file.size());
+            report.problem(&path, "is empty: not one particle fits", mend);
             continue;
         }
-        fit::check_walls(&path, &grains.position, radius, frame, report);
-        fit::remove_inside_colliders(&path, &mut grains, colliders, radius, frame.dimensions, report);
+        let reach = reach(&stretches[i]);
+        fit::check_walls(&path, &grains.position, reach, frame, report);
+        fit::remove_inside_colliders(&path, &mut grains, colliders, reach, frame.dimensions, report);
         fit::remove_overlaps(&path, &mut grains, &placed, report);
         if i + 1 < file.bodies.len() {
             placed.add(&grains.position, i);
@@ -125,6 +126,7 @@ fn fill_fluid(
 fn grains(
     index: usize,
     body: &Body,
+    stretch: DVec3,
     file: &SceneFile,
     frame: &Frame,
     folder: &Path,
@@ -142,7 +144,7 @@ fn grains(
         if body.spacing.is_some() || body.jitter != 0.0 || body.arrangement != Arrangement::default() {
             report.problem(
                 &path,
-                "a particle file says itself where grains are",
+                "a particle file says itself where particles are",
                 "remove `arrangement`, `spacing` and `jitter`",
             );
         }
@@ -173,7 +175,7 @@ fn grains(
         report.problem(
             format!("{path}.spacing"),
             format!(
-                "{} m is less than a grain's diameter: grains would overlap",
+                "{} m is less than twice a particle's radius: particles would overlap",
                 number(spacing)
             ),
             format!("give at least {} m, or leave it out", number(2.0 * radius)),
@@ -184,8 +186,11 @@ fn grains(
     if at_most > MOST_PARTICLES as f64 {
         report.problem(
             &path,
-            format!("would hold about {} grains", number(at_most)),
-            format!("make it smaller or grains larger: at most {MOST_PARTICLES} particles"),
+            format!("would hold about {} particles", number(at_most)),
+            format!(
+                "make it smaller or {} larger: at most {MOST_PARTICLES} particles",
+                file.size()
+            ),
         );
         return None;
     }
@@ -193,56 +198,30 @@ fn grains(
     let mut random = ChaCha8Rng::seed_from_u64(file.seed);
     random.set_stream(index as u64);
     let position = match body.arrangement {
-        Arrangement::Lattice => shapes::lattice(
-            &region,
-            frame.dimensions,
-            radius,
-            spacing,
-            body.jitter,
-            &mut random,
-        ),
+        Arrangement::Lattice => {
+            let mut points = |region| {
+                shapes::lattice(
+                    region,
+                    frame.dimensions,
+                    radius,
+                    spacing,
+                    body.jitter,
+                    &mut random,
+                )
+            };
+            match &region {
+                Region::Box { min, max } if stretch != DVec3::ONE => {
+                    let (min, max) = (*min, *min + (*max - *min) / stretch);
+                    let points = points(&Region::Box { min, max });
+                    points.iter().map(|p| min + (*p - min) * stretch).collect()
+                }
+                _ => points(&region),
+            }
+        }
         Arrangement::Random => shapes::random(&region, frame.dimensions, radius, body.fraction, &mut random),
     };
-    if let (Region::Box { min, max }, Arrangement::Lattice, true) =
-        (&region, body.arrangement, file.fluid.is_some())
-    {
-        gaps(&path, *min, *max, spacing, &position, frame, report);
-    }
     let velocity = vec![velocity; position.len()];
     Some(Grains { position, velocity })
-}
-
-/// Spacings that may be left over between a box of fluid and a wall before that is told.
-const LEFT_OVER: f64 = 0.25;
-
-/// Tells where a box of fluid reaches a side of the domain and its lattice, which begins at the lower corner, does not.
-fn gaps(
-    path: &str,
-    min: DVec3,
-    max: DVec3,
-    spacing: f64,
-    position: &[DVec3],
-    frame: &Frame,
-    report: &mut Report,
-) {
-    let Some(end) = position.iter().copied().reduce(DVec3::max) else {
-        return;
-    };
-    for (axis, name) in frame.axes() {
-        let beside = frame.sides[axis][1] != Wall::Open && frame.max[axis] - max[axis] < LEFT_OVER * spacing;
-        let length = max[axis] - min[axis];
-        let left = max[axis] - end[axis] - 0.5 * spacing;
-        if beside && left > LEFT_OVER * spacing {
-            report.notes.push(format!(
-                "{path}: {} particles fill {} m along {name} but for {} m, a gap at the domain's side that the fluid falls \
-                 into; a spacing of {} m leaves none",
-                ((length - left) / spacing).round(),
-                number(length),
-                number(left),
-                number(length / (length / spacing).round())
-            ));
-        }
-    }
 }
 
 /// Local coordinates.

@@ -61,7 +61,7 @@ pub fn check_walls(path: &str, grains: &[DVec3], radius: f64, frame: &Frame, rep
         ];
         for (end, wall, center_beyond) in sides {
             let (beyond, says) = match wall {
-                Wall::Open => (center_beyond, "grains lie outside the domain's open side"),
+                Wall::Open => (center_beyond, "particles lie outside the domain's open side"),
                 Wall::Contact | Wall::Clamp | Wall::Particles | Wall::Planes => {
                     (center_beyond + radius, "reaches through the domain's side")
                 }
@@ -120,12 +120,12 @@ fn lost(path: &str, removed: usize, all: usize, other: &str, report: &mut Report
     if 2 * removed > all {
         report.problem(
             path,
-            format!("overlaps {other}: {removed} of its {all} grains"),
+            format!("overlaps {other}: {removed} of its {all} particles"),
             "move one of them, or remove one",
         );
     } else if removed > 0 {
         report.notes.push(format!(
-            "{path}: {removed} of {all} grains overlap {other} and were left out"
+            "{path}: {removed} of {all} particles overlap {other} and were left out"
         ));
     }
 }

@@ -10,6 +10,7 @@ mod coloring;
 pub mod column;
 mod contact;
 mod emission;
+mod filling;
 mod fit;
 pub mod fluid;
 mod fluid_keys;

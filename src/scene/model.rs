@@ -9,6 +9,8 @@ mod render;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::text::number;
+
 pub use fluid::{
     DensityFrom, Fluid, FluidSolver, Kernel, Material, NegativePressure, PressureForce, Slip, ViscosityForm,
 };
@@ -74,6 +76,14 @@ impl SceneFile {
             (Some(grains), _) => grains.radius,
             (None, Some(fluid)) => fluid.spacing / 2.0,
             (None, None) => 0.0,
+        }
+    }
+
+    /// The key that says how large particles are, and its value, for messages.
+    pub fn size(&self) -> String {
+        match &self.fluid {
+            Some(fluid) => format!("fluid.spacing ({} m)", number(fluid.spacing)),
+            None => format!("grains.radius ({} m)", number(self.radius())),
         }
     }
 

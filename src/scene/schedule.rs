@@ -188,7 +188,7 @@ impl Unroll<'_> {
         if count > MOST_PARTICLES as f64 {
             report.problem(
                 format!("{path}.radius"),
-                format!("a ball of about {} grains", number(count)),
+                format!("a ball of about {} particles", number(count)),
                 format!("make it smaller: at most {MOST_PARTICLES} particles"),
             );
             return None;
@@ -207,8 +207,8 @@ impl Unroll<'_> {
             &mut unused,
         );
         if points.is_empty() {
-            let least = format!("give at least grains.radius, {} m", number(grain));
-            report.problem(format!("{path}.radius"), "not one grain fits", least);
+            let least = format!("give at least a particle's radius, {} m", number(grain));
+            report.problem(format!("{path}.radius"), "not one particle fits", least);
             return None;
         }
         Some(self.batch(&points, velocity, 0))
@@ -233,7 +233,7 @@ impl Unroll<'_> {
         let Some(axis) = velocity.try_normalize() else {
             report.problem(
                 place,
-                "is zero: grains would never leave the emitter",
+                "is zero: particles would never leave the emitter",
                 "give it a speed",
             );
             return;
@@ -248,7 +248,7 @@ impl Unroll<'_> {
             report.problem(
                 format!("{path}.spacing"),
                 format!(
-                    "{} m is less than a grain's diameter: grains would overlap",
+                    "{} m is less than twice a particle's radius: particles would overlap",
                     number(spacing)
                 ),
                 format!("give at least {} m, or leave it out", number(2.0 * grain)),
@@ -266,8 +266,8 @@ impl Unroll<'_> {
             self.frame.dimensions,
         ) {
             points if points.is_empty() => {
-                let least = format!("give at least grains.radius, {} m", number(grain));
-                report.problem(format!("{path}.radius"), "not one grain fits", least);
+                let least = format!("give at least a particle's radius, {} m", number(grain));
+                report.problem(format!("{path}.radius"), "not one particle fits", least);
                 return;
             }
             points => points,
@@ -285,7 +285,7 @@ impl Unroll<'_> {
         if grains > MOST_PARTICLES as f64 {
             report.problem(
                 &path,
-                format!("lets in {} grains until the run ends", number(grains)),
+                format!("lets in {} particles until the run ends", number(grains)),
                 format!("make it slower or narrower: at most {MOST_PARTICLES} particles"),
             );
             return;

@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::bodies::{self, MOST_PARTICLES};
 use super::coloring::{self, Known};
 use super::contact::Law;
+use super::filling;
 use super::fluid::{Fluid, Speeds};
 use super::fluid_keys;
 use super::frame::{Frame, Report};
@@ -23,8 +24,9 @@ use crate::error::Problem;
 
 /// Checks what the schema cannot say, completes what was left out, and turns the rest into numbers. Files named in
 /// the scene are looked up in `folder`.
-pub(super) fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Problem>> {
+pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<Problem>> {
     let mut report = Report::default();
+    let stretches = filling::fit_spacing(&mut file, &mut report);
     let frame = Frame::new(&file, &mut report);
     if !report.problems.is_empty() {
         // Without a sound domain, what follows would only repeat its problems.
@@ -40,7 +42,7 @@ pub(super) fn validate(file: SceneFile, folder: &Path) -> Result<Scene, Vec<Prob
     let bodies::Filled {
         mut particles,
         bodies,
-    } = bodies::fill(&file, &frame, obstacles, folder, &mut report);
+    } = bodies::fill(&file, &stretches, &frame, obstacles, folder, &mut report);
     let frames = time::frames(&file.time, &mut report);
     let end = f64::from(frames - 1) / file.time.fps;
     let schedule = schedule::schedule(&file, &frame, law, mass, end, &mut colliders, &mut report);

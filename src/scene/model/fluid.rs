@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 pub struct Fluid {
     #[serde(default)]
     pub solver: FluidSolver,
-    /// Distance of particles at rest, metres. Each has the mass of a square or cube of this side.
+    /// Distance of particles at rest, metres. Each has the mass of a square or cube of this side. It becomes a little more
+    /// or less where bodies' boxes are no whole number of spacings long, so that the fluid fills them exactly.
     #[schemars(range(min = 1e-9, max = 1e6))]
     pub spacing: f64,
     /// At rest, kg/m³ (kg/m² times one metre in 2D).

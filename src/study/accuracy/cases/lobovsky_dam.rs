@@ -211,3 +211,21 @@ fn impulse(pressure: &Series) -> Option<f64> {
     let arrival = pressure.arrival(ARRIVED)?;
     pressure.integral(arrival, arrival + PLATEAU[1])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_are_told_by_their_median_and_ends() {
+        let of = |values: &[Option<f64>]| {
+            let spread = Spread::of(values.iter().copied());
+            (spread.least, spread.median, spread.most)
+        };
+        let odd = of(&[Some(3.0), Some(-1.0), Some(90.0)]);
+        assert_eq!(odd, (Some(-1.0), Some(3.0), Some(90.0)));
+        assert_eq!(of(&[Some(4.0), Some(2.0)]), (Some(2.0), Some(3.0), Some(4.0)));
+        // A run whose water never arrived must not be passed over.
+        assert_eq!(of(&[Some(3.0), None, Some(90.0)]), (None, None, None));
+    }
+}
