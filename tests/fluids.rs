@@ -55,7 +55,7 @@ fn stirred(dimensions: usize, steps: u32, overrides: &[&str]) -> Scene {
     scene
 }
 
-const SOLVERS: [&[&str]; 12] = [
+const SOLVERS: [&[&str]; 13] = [
     &[],
     &["time.integrator=velocity_verlet", "fluid.viscosity=5"],
     &["fluid.solver=sph", "fluid.viscosity=5"],
@@ -70,6 +70,11 @@ const SOLVERS: [&[&str]; 12] = [
         "fluid.kernel=wendland_c4",
     ],
     &["fluid.artificial_viscosity=0.2", "fluid.slip=free_slip"],
+    &[
+        "fluid.shifting=1",
+        "fluid.slip=free_slip",
+        "fluid.wall_friction=0.2",
+    ],
     &[
         "fluid.viscosity=5",
         "fluid.viscosity_form=stress",
@@ -331,6 +336,105 @@ fn walls_that_slip_do_not_brake() {
             assert!(kept.contains(&speed), "{walls}, {slip}: {speed} of 1 m/s is left");
         }
     }
+}
+
+/// A layer of depth h over a floor with friction: dv/dt = −c v² / 2h, so v = v₀ / (1 + c v₀ t / 2h).
+#[test]
+fn friction_brakes_by_the_square_of_the_speed() {
+    for (dimensions, walls) in [(2, "particles"), (2, "planes"), (3, "particles")] {
+        for friction in [0.02, 0.1] {
+            let (walls, friction_key) = (
+                format!("domain.walls={walls}"),
+                format!("fluid.wall_friction={friction}"),
+            );
+            let (sides, body) = match dimensions {
+                2 => (
+                    "domain.sides={\"x_min\":\"periodic\",\"x_max\":\"periodic\"}",
+                    "bodies=[{\"shape\":{\"kind\":\"box\",\"min\":[0,0],\"max\":[1,0.2]},\
+                     \"velocity\":[1,0],\"pressure\":\"hydrostatic\"}]",
+                ),
+                _ => (
+                    "domain.sides={\"x_min\":\"periodic\",\"x_max\":\"periodic\",\
+                     \"z_min\":\"periodic\",\"z_max\":\"periodic\"}",
+                    "bodies=[{\"shape\":{\"kind\":\"box\",\"min\":[0,0,0],\"max\":[0.6,0.2,0.4]},\
+                     \"velocity\":[1,0,0],\"pressure\":\"hydrostatic\"}]",
+                ),
+            };
+            let time = if dimensions == 2 { 1.0 } else { 0.3 };
+            let scene = common::fluid(
+                dimensions,
+                &[
+                    walls.as_str(),
+                    friction_key.as_str(),
+                    sides,
+                    body,
+                    "fluid.slip=free_slip",
+                    // The layer goes as one.
+                    "fluid.viscosity=50",
+                    "colliders=[]",
+                    "fluid.max_speed=2",
+                    &format!("time.duration={time}"),
+                    &format!("time.fps={}", 1.0 / time),
+                ],
+            );
+            let found = particles(&scene, 1);
+            let speed = found.velocity.iter().map(|v| f64::from(v.x)).sum::<f64>() / found.len() as f64;
+            let lost = 1.0 - 1.0 / (1.0 + friction * time / (2.0 * 0.2));
+            let apart = (1.0 - speed) / lost - 1.0;
+            assert!(
+                apart.abs() < 0.1,
+                "{dimensions}D {walls}, {friction}: lost {} of {lost} m/s",
+                1.0 - speed
+            );
+        }
+    }
+}
+
+/// Shifting spreads particles evenly and leaves a free surface where it is.
+#[test]
+fn shifting_keeps_to_the_surface() {
+    let scene = |shifting: &str| {
+        common::fluid(
+            2,
+            &[
+                shifting,
+                "fluid.slip=free_slip",
+                "fluid.artificial_viscosity=0.1",
+                "colliders=[]",
+                "bodies=[{\"shape\":{\"kind\":\"box\",\"min\":[0,0],\"max\":[0.3,0.5]}}]",
+                "time.duration=1",
+                "time.fps=1",
+            ],
+        )
+    };
+    // How far particles are from their nearest neighbors, spacings: the worst hundredth.
+    let closest = |found: &Particles, spacing: f32| {
+        let mut least: Vec<f32> = found
+            .position
+            .iter()
+            .enumerate()
+            .map(|(i, a)| {
+                let others = found.position.iter().enumerate().filter(|(j, _)| i != *j);
+                others.map(|(_, b)| a.distance(*b)).fold(f32::MAX, f32::min) / spacing
+            })
+            .collect();
+        least.sort_by(f32::total_cmp);
+        least[least.len() / 100]
+    };
+    let height = |found: &Particles| found.position.iter().map(|x| x.y).sum::<f32>() / found.len() as f32;
+    let [plain, shifted] = ["fluid.shifting=0", "fluid.shifting=1"].map(|shifting| {
+        let scene = scene(shifting);
+        let found = particles(&scene, 1);
+        (closest(&found, 2.0 * scene.radius() as f32), height(&found))
+    });
+    assert!(
+        shifted.0 > 1.1 * plain.0,
+        "nearest neighbors: {} beside {}",
+        shifted.0,
+        plain.0
+    );
+    let rise = shifted.1 - plain.1;
+    assert!(rise.abs() < 0.02, "the water's middle is {rise} m higher");
 }
 
 /// What comes down onto a floor that slips is pressed together and damped, by planes as by particles.

@@ -23,7 +23,7 @@ fn wanted() -> Wanted {
 
 /// Plans of fluids that together use every flag and role.
 fn fluid_plans() -> Vec<Plan> {
-    let solvers: [&[&str]; 12] = [
+    let solvers: [&[&str]; 13] = [
         &["fluid.solver=sph", "fluid.viscosity=0.1"],
         &["time.adaptive=true"],
         &["time.adaptive=true", "time.integrator=velocity_verlet"],
@@ -49,6 +49,11 @@ fn fluid_plans() -> Vec<Plan> {
             "fluid.kernel=wendland_c4",
         ],
         &["fluid.viscosity=0.1", "fluid.gradient_correction=true"],
+        &[
+            "fluid.shifting=1",
+            "fluid.slip=free_slip",
+            "fluid.wall_friction=0.01",
+        ],
         &[
             "fluid.viscosity=0.1",
             "fluid.viscosity_form=stress",

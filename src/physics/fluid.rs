@@ -56,7 +56,8 @@ pub fn plan(
     let muller = fluid.kernel == Kernel::Muller;
     let slips = (walls || planes) && fluid.slip == Slip::FreeSlip;
     let damped = fluid.artificial_viscosity > 0.0;
-    let wall_damping = slips && damped;
+    let rubs = slips && fluid.wall_friction > 0.0;
+    let sliding_walls = slips && (damped || rubs);
     // Walls along which fluid slips say nothing of the velocity's slope.
     let exact_laplacian = fluid.gradient_correction && viscous && !stress && !muller && !slips;
     variant
@@ -77,7 +78,8 @@ pub fn plan(
         .flag("stress_form", stress)
         .flag("surface_tension", tension)
         .flag("artificial_viscosity", damped)
-        .flag("wall_damping", wall_damping)
+        .flag("wall_friction", rubs)
+        .flag("sliding_walls", sliding_walls)
         .flag("mirrored_walls", slips || fluid.gradient_correction)
         .flag("muller_kernels", muller)
         .flag(
@@ -100,7 +102,7 @@ pub fn plan(
         .flag("shifting", shifting)
         .flag(
             "matrices",
-            fluid.gradient_correction || stress || shifting || wall_damping,
+            fluid.gradient_correction || stress || shifting || sliding_walls,
         )
         .flag("planes", planes)
         .flag("rim", rim)
@@ -265,6 +267,7 @@ pub fn coefficients(scene: &Scene, fluid: &scene::fluid::Fluid) -> Fluid {
         inverse_sound_squared: (1.0 / (sound * sound)) as f32,
         diffusion: (2.0 * fluid.density_diffusion * half * sound) as f32,
         artificial_viscosity: (fluid.artificial_viscosity * half * sound) as f32,
+        wall_friction: fluid.wall_friction as f32,
         shifting: (USUAL_SHIFT * fluid.shifting * half * fluid.max_speed) as f32,
         shift_limit: (LONGEST_SHIFT * fluid.spacing) as f32,
         kernel_at_spacing: kernels::value(fluid.kernel, dimensions, h, fluid.spacing) as f32,

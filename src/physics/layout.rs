@@ -227,6 +227,7 @@ shared_struct! {
         pub diffusion: f32,
         /// m²/s.
         pub artificial_viscosity: f32,
+        pub wall_friction: f32,
         /// m²/s.
         pub shifting: f32,
         /// Metres.
@@ -241,7 +242,7 @@ shared_struct! {
         /// Metres.
         pub spacing: f32,
         pub first_wall: u32,
-        pub _pad: [u32; 2],
+        pub _pad: [u32; 1],
         /// 1 along directions in which space does not repeat, else 0.
         pub closed: [f32; 4],
     }

@@ -49,6 +49,8 @@ pub struct Fluid {
     pub gradient_correction: bool,
     pub shifting: f64,
     pub artificial_viscosity: f64,
+    /// Fanning's factor of walls that slip.
+    pub wall_friction: f64,
     pub viscosity_form: ViscosityForm,
     pub slip: Slip,
     /// Degrees.
@@ -198,6 +200,7 @@ impl Fluid {
             gradient_correction: given.gradient_correction,
             shifting: given.shifting,
             artificial_viscosity: given.artificial_viscosity,
+            wall_friction: given.wall_friction,
             viscosity_form: given.viscosity_form,
             slip: given.slip,
             contact_angle: given.contact_angle.unwrap_or(90.0),

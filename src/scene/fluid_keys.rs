@@ -1,7 +1,7 @@
 //! Keys that have no effect on what the scene is made of: a user who writes them expects something.
 
 use super::frame::Report;
-use super::model::{ColliderShape, NegativePressure, PressureForce, SceneFile, StartPressure};
+use super::model::{ColliderShape, NegativePressure, PressureForce, SceneFile, Slip, StartPressure};
 
 /// A problem for each.
 pub fn check(file: &SceneFile, report: &mut Report) {
@@ -30,6 +30,16 @@ pub fn check(file: &SceneFile, report: &mut Report) {
             "fluid.contact_angle",
             "has no effect without surface tension",
             "leave it out, or give fluid.surface_tension (0.0728 N/m for water)",
+        );
+    }
+    if let Some(fluid) = &file.fluid
+        && fluid.wall_friction > 0.0
+        && fluid.slip == Slip::NoSlip
+    {
+        report.problem(
+            "fluid.wall_friction",
+            "has no effect on walls that the fluid sticks to",
+            "leave it out, or set fluid.slip to `free_slip`",
         );
     }
     if let Some(fluid) = &file.fluid

@@ -307,6 +307,7 @@ impl Reference {
             let (mut inwards, mut against) = (DVec3::ZERO, 0.0);
             let (mut wall_velocity, mut damping) = (DVec3::ZERO, DMat3::ZERO);
             let (mut crowd, mut slopes, mut excess_slope) = (DVec3::ZERO, DMat3::ZERO, DVec3::ZERO);
+            let (mut inside, mut surrounded) = (DVec3::ZERO, 0.0);
             for (j, away, r, gradient) in self.neighbors(i) {
                 let volume = self.volume(j);
                 let other = self.rest_density(j) * (1.0 + self.excess[j]);
@@ -366,13 +367,21 @@ impl Reference {
                 let near = kernels::value(fluid.kernel, self.dimensions, h, r)
                     / kernels::value(fluid.kernel, self.dimensions, h, fluid.spacing);
                 crowd += volume * (1.0 + 0.2 * near.powi(4)) * gradient;
-                slopes += outer(apart, gradient) * volume;
+                if !slides {
+                    slopes += outer(apart, gradient) * volume;
+                }
+                inside += volume * gradient;
+                surrounded += volume * gradient.dot(away) / self.dimensions as f64;
                 excess_slope += volume * (self.excess[j] - self.excess[i]) * gradient;
             }
             if against > 0.0 {
+                let area = inwards.length();
                 let inwards = inwards.normalize_or_zero();
-                let nearing = (wall_velocity / against - self.velocity[i]).dot(inwards).min(0.0);
-                drag += density * nearing * inwards.dot(damping * inwards) * inwards;
+                let past = wall_velocity / against - self.velocity[i];
+                let nearing = past.dot(inwards);
+                drag += density * nearing.min(0.0) * inwards.dot(damping * inwards) * inwards;
+                let along = past - nearing * inwards;
+                drag += density * fluid.wall_friction * area * along.length() * along;
             }
             if seen != 0.0 {
                 let curved = (self.dimensions - 1) as f64;
@@ -402,6 +411,9 @@ impl Reference {
                     drag = (trace / self.dimensions as f64) * (drag - slopes * offset);
                 }
             }
+            let normal = inside.normalize_or_zero();
+            let through = (1.0 - ((surrounded - 0.8) / 0.15).clamp(0.0, 1.0)) * crowd.dot(normal);
+            let crowd = ((surrounded - 0.3) / 0.1).clamp(0.0, 1.0) * (crowd - through * normal);
             let wanted = -4.0 * fluid.shifting * half * fluid.max_speed * self.step * crowd;
             let shift = wanted * (0.05 * fluid.spacing / wanted.length().max(1e-30)).min(1.0);
             all.push(Forces {

@@ -14,6 +14,7 @@ struct Fluid {
     inverse_sound_squared: f32, // 1/c², s²/m²
     diffusion: f32, // 2 δ h c, m²/s
     artificial_viscosity: f32, // α h c, m²/s
+    wall_friction: f32, // Fanning's factor of walls that slip
     shifting: f32, // m²/s; times the step, the factor of the gradient of concentration
     shift_limit: f32, // of one step, m
     kernel_at_spacing: f32, // W at the distance of particles at rest

@@ -10,6 +10,9 @@
 #if planes
 #import physics/fluid/planes
 #end
+#if shifting
+#import physics/fluid/shift
+#end
 #if stress_form
 var<storage, read> stress: array<Matrix>;
 #end
@@ -43,14 +46,16 @@ fn forces_on(i: u32) -> Forces {
 #if laplacian_correction
     var offset = Vector(0.0); // where the weights of viscous forces are not balanced
 #end
-#if wall_damping
-    var inwards = Vector(0.0); // into the walls around
+#if sliding_walls
+    var inwards = Vector(0.0); // into the walls around; as long as they have area over volume, 1/m
     var against = 0.0; // how much of them is near, 1/m²
     var wall_velocity = Vector(0.0);
     var damping = Matrix();
 #end
 #if shifting
     var crowd = Vector(0.0);
+    var inside = Vector(0.0); // away from the surface
+    var surrounded = 0.0; // divergence of positions: DIMENSIONS inside (Lee 2008)
     var excess_slope = Vector(0.0);
 #end
 #if surface_tension
@@ -120,27 +125,35 @@ fn forces_on(i: u32) -> Forces {
                 turned -= part * dot(beside / max(steepness, 1e-30) - direction, along);
                 seen -= part * dot(along, along);
 #end
-#if artificial_viscosity
-                var approach = min(dot(unpack(velocity[j]) - v, s), 0.0);
-                let square = dot(s, s) + fluid.smallest_square;
-#if wall_damping
-                approach = select(approach, 0.0, is_wall(j));
+#if sliding_walls
                 let wall = select(0.0, -weight, is_wall(j));
                 inwards += wall * s;
                 against += wall;
                 wall_velocity += wall * unpack(velocity[j]);
+#end
+#if artificial_viscosity
+                var approach = min(dot(unpack(velocity[j]) - v, s), 0.0);
+                let square = dot(s, s) + fluid.smallest_square;
+#if sliding_walls
+                approach = select(approach, 0.0, is_wall(j));
                 damping += (wall / square) * outer(s, s);
 #end
                 drag -= (weight * density * fluid.artificial_viscosity * approach / square) * s;
 #end
 #if velocity_slopes
+#if slips
+                velocity_slope -= select(weight, 0.0, is_wall(j)) * outer(viscous(j) - v, s);
+#else
                 velocity_slope -= weight * outer(viscous(j) - v, s);
+#end
 #end
 #if shifting
                 // More where particles come close, so that they do not pair (Monaghan 2000).
                 let near = kernel(r) / fluid.kernel_at_spacing;
                 crowd -= (weight * (1.0 + 0.2 * (near * near) * (near * near))) * s;
                 excess_slope -= (weight * (other.x - state.x)) * s;
+                inside -= weight * s;
+                surrounded -= weight * dot(s, s);
 #end
             }
         }
@@ -183,12 +196,14 @@ fn forces_on(i: u32) -> Forces {
         drag -= (2.0 * weight) * (stress[i] * s);
 #end
 #end
-#if artificial_viscosity
-        let square = dot(s, s) + fluid.smallest_square;
-#if wall_damping
+#if sliding_walls
         inwards -= weight * s;
         against -= weight;
         wall_velocity -= weight * cell.velocity;
+#end
+#if artificial_viscosity
+        let square = dot(s, s) + fluid.smallest_square;
+#if sliding_walls
         damping -= (weight / square) * outer(s, s);
 #else
         let approach = min(dot(apart, s), 0.0);
@@ -198,11 +213,11 @@ fn forces_on(i: u32) -> Forces {
 #if shifting
         let near = kernel(r) / fluid.kernel_at_spacing;
         crowd -= (weight * (1.0 + 0.2 * (near * near) * (near * near))) * s;
+        inside -= weight * s;
+        surrounded -= weight * dot(s, s);
 #end
 #if velocity_slopes
-#if slips
-        velocity_slope -= weight * outer(apart, s);
-#else
+#if !slips
         velocity_slope -= (weight * cell.stretch) * outer(apart, s);
 #end
 #end
@@ -227,11 +242,20 @@ fn forces_on(i: u32) -> Forces {
     excess_slope = exact * excess_slope;
 #end
 #end
-#if wall_damping
+#if sliding_walls
+    let area = length(inwards);
+    inwards = inwards / max(area, 1e-30);
+    let past = wall_velocity / max(against, 1e-30) - v; // how the walls go past
+    let nearing = dot(past, inwards);
+#if artificial_viscosity
     // Walls that slip damp what comes nearer and leave alone what goes along them.
-    inwards = inwards / max(length(inwards), 1e-30);
-    let nearing = min(dot(wall_velocity / max(against, 1e-30) - v, inwards), 0.0);
-    drag += (density * fluid.artificial_viscosity * nearing * dot(inwards, damping * inwards)) * inwards;
+    drag += (density * fluid.artificial_viscosity * min(nearing, 0.0) * dot(inwards, damping * inwards)) * inwards;
+#end
+#if wall_friction
+    // A stress of ½ c ρ v² on the area (Darcy and Weisbach), half of which the kernels of the particles beside it see.
+    let along = past - nearing * inwards;
+    drag += (density * fluid.wall_friction * area * length(along)) * along;
+#end
 #end
     var forces = Forces();
 #if surface_tension
@@ -244,7 +268,7 @@ fn forces_on(i: u32) -> Forces {
 #end
     forces.acceleration = first(parameters.gravity) + (push + drag) / density;
 #if shifting
-    let wanted = -(time_step() * fluid.shifting) * crowd;
+    let wanted = -(time_step() * fluid.shifting) * along_surface(crowd, inside, surrounded);
     forces.shift = wanted * min(1.0, fluid.shift_limit / max(length(wanted), 1e-30));
     forces.velocity_slope = velocity_slope;
     forces.excess_slope = excess_slope;

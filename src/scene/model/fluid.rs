@@ -68,14 +68,19 @@ pub struct Fluid {
     /// Laplacian of viscous forces (Schwaiger 2008), except where fluid slips along walls.
     #[serde(default)]
     pub gradient_correction: bool,
-    /// Strength of particle shifting, which keeps particles evenly spread (Lind 2012); 0 is none, 1 that of δ⁺-SPH (Sun 2017). For flows
-    /// without a free surface.
+    /// Strength of particle shifting, which keeps particles evenly spread (Lind 2012); 0 is none, 1 that of δ⁺-SPH
+    /// (Sun 2017). On free surfaces it acts along them only.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 2.0))]
     pub shifting: f64,
     /// What fluid does at walls.
     #[serde(default)]
     pub slip: Slip,
+    /// Of walls along which fluid slips: Fanning's friction factor c, with which they take ½ c ρ v² of shear stress, as
+    /// turbulent layers do that are thinner than the particles; a fourth of Darcy's. 0.005 is usual for smooth walls.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub wall_friction: f64,
     /// Of the free surface, N/m (N in 2D); 0.0728 for water in air (Brackbill 1992; Morris 2000). Between two fluids it
     /// is the sum of both. Drops need `negative_pressure: keep` to hold together.
     #[serde(default)]

@@ -121,6 +121,10 @@ fn method(scene: &Scene) -> Method {
             walls.is_some() && fluid.slip == Slip::FreeSlip,
             "free slip".to_owned(),
         ),
+        (
+            fluid.wall_friction > 0.0,
+            format!("wall friction {}", fluid.wall_friction),
+        ),
     ];
     Method {
         solver: word(fluid.solver),
