@@ -414,17 +414,17 @@ fn boxes_that_share_a_spacing_stay_whole() {
     assert_eq!(scene.first_wall(), 25 + 25);
     assert_eq!(scene.notes.len(), 3, "{:?}", scene.notes);
     assert!(
-        scene.notes[1].contains("bodies[0]: is no whole number of spacings long"),
+        scene.notes[1].contains("bodies[0]: its sides are no whole numbers of spacings"),
         "{:?}",
         scene.notes
     );
     assert!(
-        scene.notes[1].contains("% more than its box"),
+        scene.notes[1].contains("% more than the box"),
         "{:?}",
         scene.notes
     );
     assert!(
-        scene.notes[2].contains("% less than its box"),
+        scene.notes[2].contains("% less than the box"),
         "{:?}",
         scene.notes
     );

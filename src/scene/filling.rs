@@ -54,10 +54,10 @@ pub fn fit_spacing(file: &mut SceneFile, report: &mut Report) -> Vec<DVec3> {
         let held = filled.number() * spacing.powi(file.dimensions as i32) / filled.volume();
         if (held - 1.0).abs() > TOLD {
             report.notes.push(format!(
-                "bodies[{}]: is no whole number of spacings long, and its particles hold {} % {} than its box; sides of whole \
-                 spacings ({} m) hold just as much",
+                "bodies[{}]: its sides are no whole numbers of spacings, and its particles hold {:.1} % {} than the box; sides \
+                 of whole spacings ({} m) hold just as much",
                 filled.body,
-                number(100.0 * (held - 1.0).abs()),
+                100.0 * (held - 1.0).abs(),
                 if held > 1.0 { "more" } else { "less" },
                 number(given)
             ));
