@@ -396,6 +396,13 @@ fn fluid_fills_its_boxes_from_wall_to_wall() {
         "{told:?}"
     );
     assert_eq!(scene(&[]).notes, [""; 0]);
+    // As a file says that holds f32.
+    let nearly = scene(&[
+        "fluid.spacing=0.05",
+        "bodies[0].shape.max=[3.192,0.54999998,0.99999998]",
+    ]);
+    assert_eq!(nearly.first_wall(), 24 * 11 * 20);
+    assert_eq!(nearly.radius(), 0.025);
 }
 
 /// One spacing cannot fill two boxes exactly: neither loses particles to the other, and what is too much is told.

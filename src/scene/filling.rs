@@ -12,8 +12,10 @@ use super::text::number;
 
 /// Share by which a spacing may change, or a body hold more or less than its box, before that is told.
 const TOLD: f64 = 1e-3;
-/// Lattices that miss a box by a smaller share fit it but for rounding, of files that hold f32 too.
-const ROUNDING: f64 = 1e-6;
+/// A spacing that misses by a smaller share is meant as it is: files may hold f32.
+const MEANT: f64 = 1e-6;
+/// A lattice that misses a box by a smaller share fits it, but for rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// Gives the fluid the spacing whose particles hold together what its boxes do, and tells what changed. Where something has
 /// a spacing of its own, which must suit the fluid's, the fluid's stays as it is.
@@ -36,7 +38,7 @@ pub fn fit_spacing(file: &mut SceneFile, report: &mut Report) -> Vec<DVec3> {
     if !is_own && number_of_all > 0.0 {
         spacing = (all / number_of_all).powf(1.0 / f64::from(file.dimensions));
     }
-    if (spacing / given - 1.0).abs() < ROUNDING {
+    if (spacing / given - 1.0).abs() < MEANT {
         spacing = given;
     }
     if let Some(fluid) = &mut file.fluid {
