@@ -100,6 +100,11 @@ pub fn plan(
         )
         .flag("gradient_correction", fluid.gradient_correction)
         .flag("shifting", shifting)
+        // Where water may not part, what looks like a surface is a void that shifting has to fill.
+        .flag(
+            "free_surface_shifting",
+            shifting && fluid.negative_pressure == NegativePressure::Clamp,
+        )
         .flag(
             "matrices",
             fluid.gradient_correction || stress || shifting || sliding_walls,

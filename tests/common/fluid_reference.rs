@@ -413,7 +413,11 @@ impl Reference {
             }
             let normal = inside.normalize_or_zero();
             let through = (1.0 - ((surrounded - 0.8) / 0.15).clamp(0.0, 1.0)) * crowd.dot(normal);
-            let crowd = ((surrounded - 0.3) / 0.1).clamp(0.0, 1.0) * (crowd - through * normal);
+            let crowd = if fluid.negative_pressure == NegativePressure::Clamp {
+                ((surrounded - 0.3) / 0.1).clamp(0.0, 1.0) * (crowd - through * normal)
+            } else {
+                crowd
+            };
             let wanted = -4.0 * fluid.shifting * half * fluid.max_speed * self.step * crowd;
             let shift = wanted * (0.05 * fluid.spacing / wanted.length().max(1e-30)).min(1.0);
             all.push(Forces {

@@ -10,7 +10,7 @@
 #if planes
 #import physics/fluid/planes
 #end
-#if shifting
+#if free_surface_shifting
 #import physics/fluid/shift
 #end
 #if stress_form
@@ -54,8 +54,10 @@ fn forces_on(i: u32) -> Forces {
 #end
 #if shifting
     var crowd = Vector(0.0);
+#if free_surface_shifting
     var inside = Vector(0.0); // away from the surface
     var surrounded = 0.0; // divergence of positions: DIMENSIONS inside (Lee 2008)
+#end
     var excess_slope = Vector(0.0);
 #end
 #if surface_tension
@@ -152,8 +154,10 @@ fn forces_on(i: u32) -> Forces {
                 let near = kernel(r) / fluid.kernel_at_spacing;
                 crowd -= (weight * (1.0 + 0.2 * (near * near) * (near * near))) * s;
                 excess_slope -= (weight * (other.x - state.x)) * s;
+#if free_surface_shifting
                 inside -= weight * s;
                 surrounded -= weight * dot(s, s);
+#end
 #end
             }
         }
@@ -213,8 +217,10 @@ fn forces_on(i: u32) -> Forces {
 #if shifting
         let near = kernel(r) / fluid.kernel_at_spacing;
         crowd -= (weight * (1.0 + 0.2 * (near * near) * (near * near))) * s;
+#if free_surface_shifting
         inside -= weight * s;
         surrounded -= weight * dot(s, s);
+#end
 #end
 #if velocity_slopes
 #if !slips
@@ -268,7 +274,10 @@ fn forces_on(i: u32) -> Forces {
 #end
     forces.acceleration = first(parameters.gravity) + (push + drag) / density;
 #if shifting
-    let wanted = -(time_step() * fluid.shifting) * along_surface(crowd, inside, surrounded);
+#if free_surface_shifting
+    crowd = along_surface(crowd, inside, surrounded);
+#end
+    let wanted = -(time_step() * fluid.shifting) * crowd;
     forces.shift = wanted * min(1.0, fluid.shift_limit / max(length(wanted), 1e-30));
     forces.velocity_slope = velocity_slope;
     forces.excess_slope = excess_slope;

@@ -69,7 +69,8 @@ pub struct Fluid {
     #[serde(default)]
     pub gradient_correction: bool,
     /// Strength of particle shifting, which keeps particles evenly spread (Lind 2012); 0 is none, 1 that of δ⁺-SPH
-    /// (Sun 2017). On free surfaces it acts along them only.
+    /// (Sun 2017). Where negative pressures are clamped, so that water has free surfaces, it acts along these only; else
+    /// it fills voids.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 2.0))]
     pub shifting: f64,
