@@ -403,6 +403,13 @@ fn fluid_fills_its_boxes_from_wall_to_wall() {
     ]);
     assert_eq!(nearly.first_wall(), 24 * 11 * 20);
     assert_eq!(nearly.radius(), 0.025);
+    let vortices = |spacing: &str| {
+        let overrides = [format!("fluid.spacing={spacing}")];
+        load::load(Path::new("taylor_green_3d"), &overrides).unwrap()
+    };
+    for spacing in ["0.39269908", "0.39269908169872414", "0.3926990817"] {
+        assert_eq!(vortices(spacing).first_wall(), 16 * 16 * 16, "{spacing}");
+    }
 }
 
 /// One spacing cannot fill two boxes exactly: neither loses particles to the other, and what is too much is told.

@@ -6,6 +6,7 @@ use glam::DVec3;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
+use super::filling;
 use super::fit::{self, Grains, Placed};
 use super::fluid;
 use super::frame::{Frame, Report};
@@ -26,15 +27,18 @@ pub struct Filled {
     pub bodies: Vec<std::ops::Range<usize>>,
 }
 
-/// Fills every body, whose lattices are stretched by `stretches` along the axes.
+/// Fills every body; `counts` is what [`filling::fit_spacing`] returned.
 pub fn fill(
     file: &SceneFile,
-    stretches: &[DVec3],
+    counts: &[Option<DVec3>],
     frame: &Frame,
     colliders: &[Collider],
     folder: &Path,
     report: &mut Report,
 ) -> Filled {
+    let stretches: Vec<DVec3> = (file.bodies.iter().zip(counts))
+        .map(|(body, counts)| stretch(body, *counts, file, frame))
+        .collect();
     // How near particles of a body may come to others, a stretched lattice's nearer than a spacing.
     let reach = |stretch: &DVec3| file.radius() * stretch.min_element().min(1.0);
     let nearest = stretches.iter().map(reach).fold(file.radius(), f64::min);
@@ -45,7 +49,7 @@ pub fn fill(
         let path = format!("bodies[{i}]");
         let first = particles.len();
         bodies.push(first..first);
-        let Some(mut grains) = grains(i, body, stretches[i], file, frame, folder, report) else {
+        let Some(mut grains) = grains(i, body, counts[i], file, frame, folder, report) else {
             continue;
         };
         if grains.position.is_empty() {
@@ -126,7 +130,7 @@ fn fill_fluid(
 fn grains(
     index: usize,
     body: &Body,
-    stretch: DVec3,
+    counts: Option<DVec3>,
     file: &SceneFile,
     frame: &Frame,
     folder: &Path,
@@ -209,9 +213,10 @@ fn grains(
                     &mut random,
                 )
             };
-            match &region {
-                Region::Box { min, max } if stretch != DVec3::ONE => {
-                    let (min, max) = (*min, *min + (*max - *min) / stretch);
+            match (&region, counts) {
+                (Region::Box { min, .. }, Some(counts)) => {
+                    let (min, max) = (*min, *min + counts * spacing);
+                    let stretch = stretch(body, Some(counts), file, frame);
                     let points = points(&Region::Box { min, max });
                     points.iter().map(|p| min + (*p - min) * stretch).collect()
                 }
@@ -222,6 +227,18 @@ fn grains(
     };
     let velocity = vec![velocity; position.len()];
     Some(Grains { position, velocity })
+}
+
+/// How much a body's lattice is stretched along the axes.
+fn stretch(body: &Body, counts: Option<DVec3>, file: &SceneFile, frame: &Frame) -> DVec3 {
+    match (&body.shape, counts) {
+        (Shape::Box { min, max }, Some(counts)) => {
+            let at = |point: &model::Coordinates, axis: usize| point.0.get(axis).copied().unwrap_or(0.0);
+            let size = DVec3::from([0, 1, 2].map(|axis| at(max, axis) - at(min, axis)));
+            filling::stretch(size, counts, 2.0 * file.radius(), frame.dimensions.count())
+        }
+        _ => DVec3::ONE,
+    }
 }
 
 /// Local coordinates.

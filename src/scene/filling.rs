@@ -12,20 +12,17 @@ use super::text::number;
 
 /// Share by which a spacing may change, or a body hold more or less than its box, before that is told.
 const TOLD: f64 = 1e-3;
-/// A spacing that misses by a smaller share is meant as it is: files may hold f32.
-const MEANT: f64 = 1e-6;
-/// A lattice that misses a box by a smaller share fits it, but for rounding.
-const ROUNDING: f64 = 1e-12;
+/// A lattice that misses a box by a smaller share fits it but for rounding: files may hold f32.
+const ROUNDING: f64 = 1e-6;
 
 /// Gives the fluid the spacing whose particles hold together what its boxes do, and tells what changed. Where something has
 /// a spacing of its own, which must suit the fluid's, the fluid's stays as it is.
 ///
-/// Returns how much the lattice of each body is stretched along x, y and z: 1 for all but a fluid's boxes, and for what
-/// fits.
-pub fn fit_spacing(file: &mut SceneFile, report: &mut Report) -> Vec<DVec3> {
-    let mut stretch = vec![DVec3::ONE; file.bodies.len()];
+/// Returns for each of the fluid's boxes how many particles go along x, y and z (1 in 2D); none for other bodies.
+pub fn fit_spacing(file: &mut SceneFile, report: &mut Report) -> Vec<Option<DVec3>> {
+    let mut counts = vec![None; file.bodies.len()];
     let Some(given) = file.fluid.as_ref().map(|fluid| fluid.spacing) else {
-        return stretch;
+        return counts;
     };
     let sized = |(i, body)| Some((i, size(body, file.dimensions)?));
     let sizes = file.bodies.iter().enumerate().filter_map(sized);
@@ -38,7 +35,7 @@ pub fn fit_spacing(file: &mut SceneFile, report: &mut Report) -> Vec<DVec3> {
     if !is_own && number_of_all > 0.0 {
         spacing = (all / number_of_all).powf(1.0 / f64::from(file.dimensions));
     }
-    if (spacing / given - 1.0).abs() < MEANT {
+    if (spacing / given - 1.0).abs() < ROUNDING {
         spacing = given;
     }
     if let Some(fluid) = &mut file.fluid {
@@ -52,7 +49,8 @@ pub fn fit_spacing(file: &mut SceneFile, report: &mut Report) -> Vec<DVec3> {
         ));
     }
     for filled in boxes {
-        stretch[filled.body] = filled.stretch(spacing);
+        let along = |axis: usize| filled.counts.get(axis).copied().unwrap_or(1.0);
+        counts[filled.body] = Some(DVec3::from([0, 1, 2].map(along)));
         let held = filled.number() * spacing.powi(file.dimensions as i32) / filled.volume();
         if (held - 1.0).abs() > TOLD {
             report.notes.push(format!(
@@ -63,6 +61,18 @@ pub fn fit_spacing(file: &mut SceneFile, report: &mut Report) -> Vec<DVec3> {
                 if held > 1.0 { "more" } else { "less" },
                 number(given)
             ));
+        }
+    }
+    counts
+}
+
+/// How much a lattice of so many particles is stretched along the axes to fill a box of `size`; 1 for what fits.
+pub fn stretch(size: DVec3, counts: DVec3, spacing: f64, dimensions: usize) -> DVec3 {
+    let mut stretch = DVec3::ONE;
+    for axis in 0..dimensions {
+        let along = size[axis] / (counts[axis] * spacing);
+        if (along - 1.0).abs() > ROUNDING {
+            stretch[axis] = along;
         }
     }
     stretch
@@ -92,17 +102,6 @@ impl Block {
 
     fn number(&self) -> f64 {
         self.counts.iter().product()
-    }
-
-    fn stretch(&self, spacing: f64) -> DVec3 {
-        let mut stretch = DVec3::ONE;
-        for (axis, (side, count)) in self.sides.iter().zip(&self.counts).enumerate() {
-            let along = side / (count * spacing);
-            if (along - 1.0).abs() > ROUNDING {
-                stretch[axis] = along;
-            }
-        }
-        stretch
     }
 }
 
