@@ -6,7 +6,7 @@ use glam::DVec3;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use super::filling;
+use super::filling::Filling;
 use super::fit::{self, Grains, Placed};
 use super::fluid;
 use super::frame::{Frame, Report};
@@ -27,21 +27,20 @@ pub struct Filled {
     pub bodies: Vec<std::ops::Range<usize>>,
 }
 
-/// Fills every body; `counts` is what [`filling::fit_spacing`] returned.
+/// Fills every body; `fillings` say how, for boxes of fluid.
 pub fn fill(
     file: &SceneFile,
-    counts: &[Option<DVec3>],
+    fillings: &[Option<Filling>],
     frame: &Frame,
     colliders: &[Collider],
     folder: &Path,
     report: &mut Report,
 ) -> Filled {
-    let stretches: Vec<DVec3> = (file.bodies.iter().zip(counts))
-        .map(|(body, counts)| stretch(body, *counts, file, frame))
-        .collect();
-    // How near particles of a body may come to others, a stretched lattice's nearer than a spacing.
-    let reach = |stretch: &DVec3| file.radius() * stretch.min_element().min(1.0);
-    let nearest = stretches.iter().map(reach).fold(file.radius(), f64::min);
+    // How near particles of a body may come to others: in a compressed lattice, nearer than a spacing.
+    let reach = |filling: &Option<Filling>| {
+        file.radius() * filling.map_or(1.0, |filling| filling.stretch.min_element().min(1.0))
+    };
+    let nearest = fillings.iter().map(reach).fold(file.radius(), f64::min);
     let mut placed = Placed::new(2.0 * nearest);
     let mut bodies = Vec::new();
     let mut particles = Particles::default();
@@ -49,7 +48,7 @@ pub fn fill(
         let path = format!("bodies[{i}]");
         let first = particles.len();
         bodies.push(first..first);
-        let Some(mut grains) = grains(i, body, counts[i], file, frame, folder, report) else {
+        let Some(mut grains) = grains(i, body, fillings[i], file, frame, folder, report) else {
             continue;
         };
         if grains.position.is_empty() {
@@ -57,7 +56,7 @@ pub fn fill(
             report.problem(&path, "is empty: not one particle fits", mend);
             continue;
         }
-        let reach = reach(&stretches[i]);
+        let reach = reach(&fillings[i]);
         fit::check_walls(&path, &grains.position, reach, frame, report);
         fit::remove_inside_colliders(&path, &mut grains, colliders, reach, frame.dimensions, report);
         fit::remove_overlaps(&path, &mut grains, &placed, report);
@@ -130,7 +129,7 @@ fn fill_fluid(
 fn grains(
     index: usize,
     body: &Body,
-    counts: Option<DVec3>,
+    filling: Option<Filling>,
     file: &SceneFile,
     frame: &Frame,
     folder: &Path,
@@ -213,12 +212,14 @@ fn grains(
                     &mut random,
                 )
             };
-            match (&region, counts) {
-                (Region::Box { min, .. }, Some(counts)) => {
-                    let (min, max) = (*min, *min + counts * spacing);
-                    let stretch = stretch(body, Some(counts), file, frame);
+            match (&region, filling) {
+                (Region::Box { min, .. }, Some(filling)) => {
+                    let (min, max) = (*min, *min + filling.counts * spacing);
                     let points = points(&Region::Box { min, max });
-                    points.iter().map(|p| min + (*p - min) * stretch).collect()
+                    points
+                        .iter()
+                        .map(|p| min + (*p - min) * filling.stretch)
+                        .collect()
                 }
                 _ => points(&region),
             }
@@ -227,18 +228,6 @@ fn grains(
     };
     let velocity = vec![velocity; position.len()];
     Some(Grains { position, velocity })
-}
-
-/// How much a body's lattice is stretched along the axes.
-fn stretch(body: &Body, counts: Option<DVec3>, file: &SceneFile, frame: &Frame) -> DVec3 {
-    match (&body.shape, counts) {
-        (Shape::Box { min, max }, Some(counts)) => {
-            let at = |point: &model::Coordinates, axis: usize| point.0.get(axis).copied().unwrap_or(0.0);
-            let size = DVec3::from([0, 1, 2].map(|axis| at(max, axis) - at(min, axis)));
-            filling::stretch(size, counts, 2.0 * file.radius(), frame.dimensions.count())
-        }
-        _ => DVec3::ONE,
-    }
 }
 
 /// Local coordinates.

@@ -15,14 +15,23 @@ const TOLD: f64 = 1e-3;
 /// A lattice that misses a box by a smaller share fits it but for rounding: files may hold f32.
 const ROUNDING: f64 = 1e-6;
 
+/// The lattice that fills a box.
+#[derive(Clone, Copy)]
+pub struct Filling {
+    /// Particles along x, y and z; 1 along z in 2D.
+    pub counts: DVec3,
+    /// How much they are farther apart than a spacing; 1 for what fits.
+    pub stretch: DVec3,
+}
+
 /// Gives the fluid the spacing whose particles hold together what its boxes do, and tells what changed. Where something has
 /// a spacing of its own, which must suit the fluid's, the fluid's stays as it is.
 ///
-/// Returns for each of the fluid's boxes how many particles go along x, y and z (1 in 2D); none for other bodies.
-pub fn fit_spacing(file: &mut SceneFile, report: &mut Report) -> Vec<Option<DVec3>> {
-    let mut counts = vec![None; file.bodies.len()];
+/// Returns how to fill each of the fluid's boxes; none for other bodies.
+pub fn fit_spacing(file: &mut SceneFile, report: &mut Report) -> Vec<Option<Filling>> {
+    let mut fillings = vec![None; file.bodies.len()];
     let Some(given) = file.fluid.as_ref().map(|fluid| fluid.spacing) else {
-        return counts;
+        return fillings;
     };
     let sized = |(i, body)| Some((i, size(body, file.dimensions)?));
     let sizes = file.bodies.iter().enumerate().filter_map(sized);
@@ -49,8 +58,7 @@ pub fn fit_spacing(file: &mut SceneFile, report: &mut Report) -> Vec<Option<DVec
         ));
     }
     for filled in boxes {
-        let along = |axis: usize| filled.counts.get(axis).copied().unwrap_or(1.0);
-        counts[filled.body] = Some(DVec3::from([0, 1, 2].map(along)));
+        fillings[filled.body] = Some(filled.filling(spacing));
         let held = filled.number() * spacing.powi(file.dimensions as i32) / filled.volume();
         if (held - 1.0).abs() > TOLD {
             report.notes.push(format!(
@@ -63,19 +71,7 @@ pub fn fit_spacing(file: &mut SceneFile, report: &mut Report) -> Vec<Option<DVec
             ));
         }
     }
-    counts
-}
-
-/// How much a lattice of so many particles is stretched along the axes to fill a box of `size`; 1 for what fits.
-pub fn stretch(size: DVec3, counts: DVec3, spacing: f64, dimensions: usize) -> DVec3 {
-    let mut stretch = DVec3::ONE;
-    for axis in 0..dimensions {
-        let along = size[axis] / (counts[axis] * spacing);
-        if (along - 1.0).abs() > ROUNDING {
-            stretch[axis] = along;
-        }
-    }
-    stretch
+    fillings
 }
 
 /// A box with the particles that go into it.
@@ -102,6 +98,18 @@ impl Block {
 
     fn number(&self) -> f64 {
         self.counts.iter().product()
+    }
+
+    fn filling(&self, spacing: f64) -> Filling {
+        let (mut counts, mut stretch) = (DVec3::ONE, DVec3::ONE);
+        for (axis, (&side, &count)) in self.sides.iter().zip(&self.counts).enumerate() {
+            let along = side / (count * spacing);
+            counts[axis] = count;
+            if (along - 1.0).abs() > ROUNDING {
+                stretch[axis] = along;
+            }
+        }
+        Filling { counts, stretch }
     }
 }
 

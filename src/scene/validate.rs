@@ -26,7 +26,7 @@ use crate::error::Problem;
 /// the scene are looked up in `folder`.
 pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<Problem>> {
     let mut report = Report::default();
-    let counts = filling::fit_spacing(&mut file, &mut report);
+    let fillings = filling::fit_spacing(&mut file, &mut report);
     let frame = Frame::new(&file, &mut report);
     if !report.problems.is_empty() {
         // Without a sound domain, what follows would only repeat its problems.
@@ -42,7 +42,7 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
     let bodies::Filled {
         mut particles,
         bodies,
-    } = bodies::fill(&file, &counts, &frame, obstacles, folder, &mut report);
+    } = bodies::fill(&file, &fillings, &frame, obstacles, folder, &mut report);
     let frames = time::frames(&file.time, &mut report);
     let end = f64::from(frames - 1) / file.time.fps;
     let schedule = schedule::schedule(&file, &frame, law, mass, end, &mut colliders, &mut report);

@@ -6,7 +6,7 @@ mod bench;
 mod cpu_grid;
 mod green;
 mod harada;
-pub mod measure;
+pub(crate) mod measure;
 mod page;
 mod rojas;
 mod scenes;
