@@ -5,21 +5,21 @@ use std::path::{Path, PathBuf};
 
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// One thing wrong with a scene: where, what, and how to mend it.
+/// One thing wrong with a scene: where, what, and what helps.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
     /// Place in the scene file, as a JSON path: `bodies[2].shape.radius`; empty for the whole file.
     pub path: String,
     pub what: String,
-    pub mend: String,
+    pub help: String,
 }
 
 impl Problem {
-    pub fn new(path: impl Into<String>, what: impl Into<String>, mend: impl Into<String>) -> Self {
+    pub fn new(path: impl Into<String>, what: impl Into<String>, help: impl Into<String>) -> Self {
         Self {
             path: path.into(),
             what: what.into(),
-            mend: mend.into(),
+            help: help.into(),
         }
     }
 }
@@ -31,7 +31,7 @@ impl fmt::Display for Problem {
         } else {
             &self.path
         };
-        write!(f, "{place}: {}\n    mend: {}", self.what, self.mend)
+        write!(f, "{place}: {}\n    help: {}", self.what, self.help)
     }
 }
 
@@ -63,18 +63,18 @@ pub enum Error {
         path: PathBuf,
         doing: &'static str,
         reason: String,
-        mend: String,
+        help: String,
     },
     /// No adapter, no such adapter, or a lost device.
-    Device { what: String, mend: String },
+    Device { what: String, help: String },
     /// The scene needs more than the adapter has.
-    Limit { what: String, mend: String },
+    Limit { what: String, help: String },
     /// A shader does not compile: a defect of Sliceflow, told with the author's file and line.
     Shader { message: String },
     /// The simulation became non-finite or lost a particle.
     Guard(Box<Casualty>),
     /// The command line asks for something that cannot be done.
-    Usage { what: String, mend: String },
+    Usage { what: String, help: String },
     /// Two runs that were compared differ.
     Different,
     /// Two runs cannot be compared.
@@ -88,31 +88,31 @@ impl Error {
         path: &Path,
         doing: &'static str,
         reason: impl fmt::Display,
-        mend: impl Into<String>,
+        help: impl Into<String>,
     ) -> Self {
         Self::File {
             path: path.to_owned(),
             doing,
             reason: reason.to_string(),
-            mend: mend.into(),
+            help: help.into(),
         }
     }
 
-    pub fn usage(what: impl Into<String>, mend: impl Into<String>) -> Self {
+    pub fn usage(what: impl Into<String>, help: impl Into<String>) -> Self {
         Self::Usage {
             what: what.into(),
-            mend: mend.into(),
+            help: help.into(),
         }
     }
 
-    pub fn device(what: impl Into<String>, mend: impl Into<String>) -> Self {
+    pub fn device(what: impl Into<String>, help: impl Into<String>) -> Self {
         Self::Device {
             what: what.into(),
-            mend: mend.into(),
+            help: help.into(),
         }
     }
 
-    /// Exit status of the program: 2 for what the user can mend in the input and for runs that cannot be compared, 130
+    /// Exit status of the program: 2 for what the user can correct in the input and for runs that cannot be compared, 130
     /// after Ctrl-C, 1 otherwise.
     pub fn exit_code(&self) -> u8 {
         match self {
@@ -138,12 +138,12 @@ impl fmt::Display for Error {
                 path,
                 doing,
                 reason,
-                mend,
+                help,
             } => {
-                write!(f, "cannot {doing} {}: {reason}\n  mend: {mend}", path.display())
+                write!(f, "cannot {doing} {}: {reason}\n  help: {help}", path.display())
             }
-            Self::Device { what, mend } | Self::Limit { what, mend } | Self::Usage { what, mend } => {
-                write!(f, "{what}\n  mend: {mend}")
+            Self::Device { what, help } | Self::Limit { what, help } | Self::Usage { what, help } => {
+                write!(f, "{what}\n  help: {help}")
             }
             Self::Shader { message } => write!(
                 f,

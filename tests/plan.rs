@@ -213,20 +213,20 @@ fn what_does_not_fit_is_refused_with_the_number_that_would() {
         ..Limits::PROMISED
     };
     let error = Plan::new(&scene, &small, &Wanted::default()).expect_err("too large");
-    let Error::Limit { what, mend } = error else {
+    let Error::Limit { what, help } = error else {
         panic!("{error}")
     };
     assert!(what.contains("index_pool") && what.contains("524288"), "{what}");
-    assert!(mend.contains("2048 voxels would fit"), "{mend}");
+    assert!(help.contains("2048 voxels would fit"), "{help}");
 
     let small = Limits {
         binding: 4000,
         ..Limits::PROMISED
     };
     let scene = common::scene(2, &["neighbors.storage=counting"]);
-    let Error::Limit { mend, .. } = Plan::new(&scene, &small, &Wanted::default()).expect_err("too large")
+    let Error::Limit { help, .. } = Plan::new(&scene, &small, &Wanted::default()).expect_err("too large")
     else {
         panic!("another error");
     };
-    assert!(mend.contains("500 particles would fit"), "{mend}");
+    assert!(help.contains("500 particles would fit"), "{help}");
 }

@@ -11,7 +11,7 @@ fn python(script: &str, arguments: &[&str]) -> String {
     let python = Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("python/bin/python");
     assert!(
         python.exists(),
-        "the readers are not installed in {}\n  mend: ./sliceflow test --test readers installs them",
+        "the readers are not installed in {}\n  help: ./sliceflow test --test readers installs them",
         python.display()
     );
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

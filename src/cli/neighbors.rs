@@ -123,8 +123,8 @@ fn scene(args: &Args, choice: Neighbors) -> Result<Scene> {
         _ => Dimensions::Three,
     });
     let (points, dimensions) = particle_file::load_positions(&args.points, dimensions).map_err(|what| {
-        let (what, mend) = what.split_once("; ").unwrap_or((&what, "check the file"));
-        Error::usage(what, mend)
+        let (what, help) = what.split_once("; ").unwrap_or((&what, "check the file"));
+        Error::usage(what, help)
     })?;
     Scene::of_points(&points, dimensions, args.radius, choice)
 }

@@ -68,7 +68,7 @@ pub fn sync_folder(path: &Path) -> io::Result<()> {
 
 /// The error for something that a run could not do on disk.
 pub fn failed(path: &Path, doing: &'static str, reason: io::Error) -> Error {
-    let mend = match reason.kind() {
+    let help = match reason.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
             "free space there, or choose another folder with --out"
         }
@@ -81,7 +81,7 @@ pub fn failed(path: &Path, doing: &'static str, reason: io::Error) -> Error {
         ErrorKind::NotFound => "was the folder removed? create it, or choose another with --out",
         _ => "check that folder, or choose another with --out",
     };
-    Error::file(path, doing, reason, mend)
+    Error::file(path, doing, reason, help)
 }
 
 fn partial(path: &Path) -> PathBuf {

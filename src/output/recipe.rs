@@ -109,12 +109,12 @@ impl Recorded {
     pub fn read(folder: &Path) -> Result<Self> {
         let path = folder.join("run.json");
         let text = std::fs::read(&path).map_err(|reason| {
-            let mend = "give the folder of a run: what `sliceflow run` wrote with --out";
-            Error::file(&path, "read", reason, mend)
+            let help = "give the folder of a run: what `sliceflow run` wrote with --out";
+            Error::file(&path, "read", reason, help)
         })?;
         let mut recorded: Self = serde_json::from_slice(&text).map_err(|reason| {
-            let mend = "it is not as `sliceflow run` writes it; start a new run";
-            Error::file(&path, "understand", reason, mend)
+            let help = "it is not as `sliceflow run` writes it; start a new run";
+            Error::file(&path, "understand", reason, help)
         })?;
         recorded.folder = folder.to_owned();
         Ok(recorded)

@@ -324,7 +324,7 @@ impl Plan {
                     "buffer `{}` ({}) needs {} bytes; this adapter binds at most {most} at once",
                     buffer.name, buffer.why, buffer.bytes
                 ),
-                mend: if !VOXEL_BUFFERS.contains(&buffer.name.as_str()) {
+                help: if !VOXEL_BUFFERS.contains(&buffer.name.as_str()) {
                     format!(
                         "{} particles would fit; or choose another adapter",
                         fitting(self.capacity)
@@ -349,7 +349,7 @@ impl Plan {
                     "texture `{}` needs {}×{} pixels; this adapter has at most {} a side",
                     texture.name, texture.size[0], texture.size[1], limits.texture
                 ),
-                mend: "choose a smaller --size or a lower render.antialias".into(),
+                help: "choose a smaller --size or a lower render.antialias".into(),
             });
         }
         Ok(())

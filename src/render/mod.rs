@@ -153,7 +153,7 @@ fn check_limits(gpu: &Gpu, needs: &Needs) -> Result<()> {
                     "`{}` needs {width}×{height} samples; the adapter draws {most}×{most}",
                     texture.name
                 ),
-                mend: "set render.antialias or render.size lower".into(),
+                help: "set render.antialias or render.size lower".into(),
             });
         }
     }

@@ -52,8 +52,8 @@ pub fn fill(
             continue;
         };
         if grains.position.is_empty() {
-            let mend = format!("make its shape larger or {} smaller", file.size());
-            report.problem(&path, "is empty: not one particle fits", mend);
+            let help = format!("make its shape larger or {} smaller", file.size());
+            report.problem(&path, "is empty: not one particle fits", help);
             continue;
         }
         let reach = reach(&fillings[i]);

@@ -105,12 +105,12 @@ impl<'a> Walk<'a> {
                 Some(property) => self.visit(&place, value, property, None),
                 None if schema["additionalProperties"] == false => {
                     let near = nearest(key, known.clone());
-                    let mend = match near {
+                    let help = match near {
                         Some(near) => format!("did you mean `{near}`?"),
                         None => format!("keys here: {}", list(known.clone())),
                     };
                     meant.extend(near);
-                    self.problems.push(Problem::new(place, "unknown key", mend));
+                    self.problems.push(Problem::new(place, "unknown key", help));
                 }
                 None => {}
             }
@@ -118,8 +118,8 @@ impl<'a> Walk<'a> {
         for key in alternatives(schema, "required").iter().filter_map(Value::as_str) {
             // A misspelled key has been reported as such.
             if !object.contains_key(key) && !meant.contains(&key) {
-                let mend = with_about("add it", self.about(&properties[key]));
-                self.problems.push(Problem::new(join(path, key), "missing", mend));
+                let help = with_about("add it", self.about(&properties[key]));
+                self.problems.push(Problem::new(join(path, key), "missing", help));
             }
         }
     }
@@ -134,11 +134,11 @@ impl<'a> Walk<'a> {
                 (a, u64::MAX) => format!("at least {a}"),
                 (a, b) => format!("{a} to {b}"),
             };
-            let mend = with_about(&format!("give {wanted} entries"), about);
+            let help = with_about(&format!("give {wanted} entries"), about);
             self.problems.push(Problem::new(
                 path,
                 format!("a list of {count}, expected {wanted} entries"),
-                mend,
+                help,
             ));
         }
         let fixed = alternatives(schema, "prefixItems");
@@ -171,9 +171,9 @@ impl<'a> Walk<'a> {
             .iter()
             .filter_map(|(says, name)| Some(format!("{says} {}", number(bound(name)?))))
             .collect();
-        let mend = with_about(&format!("give {}", range.join(" and ")), about);
+        let help = with_about(&format!("give {}", range.join(" and ")), about);
         self.problems
-            .push(Problem::new(path, format!("{value} is out of range"), mend));
+            .push(Problem::new(path, format!("{value} is out of range"), help));
     }
 
     fn visit_word(&mut self, path: &str, value: &Value, words: &[&str]) {
@@ -181,17 +181,17 @@ impl<'a> Walk<'a> {
             Some(word) if words.contains(&word) => {}
             Some(word) => {
                 let all = list(words.iter().copied());
-                let mend = match nearest(word, words.iter().copied()) {
+                let help = match nearest(word, words.iter().copied()) {
                     Some(near) => format!("did you mean `{near}`? one of {all}"),
                     None => format!("one of {all}"),
                 };
                 self.problems
-                    .push(Problem::new(path, format!("unknown word \"{word}\""), mend));
+                    .push(Problem::new(path, format!("unknown word \"{word}\""), help));
             }
             None => {
                 let what = format!("expected a word, found {}", found(value));
-                let mend = format!("one of {}", list(words.iter().copied()));
-                self.problems.push(Problem::new(path, what, mend));
+                let help = format!("one of {}", list(words.iter().copied()));
+                self.problems.push(Problem::new(path, what, help));
             }
         }
     }
@@ -201,14 +201,14 @@ impl<'a> Walk<'a> {
         let kinds: Vec<&str> = variants.iter().filter_map(tag).collect();
         let Some(object) = value.as_object() else {
             let what = format!("expected an object, found {}", found(value));
-            let mend = format!("give an object with `kind`: one of {}", list(kinds));
-            self.problems.push(Problem::new(path, what, mend));
+            let help = format!("give an object with `kind`: one of {}", list(kinds));
+            self.problems.push(Problem::new(path, what, help));
             return;
         };
         let place = join(path, "kind");
         let Some(kind) = object.get("kind") else {
-            let mend = format!("add it: one of {}", list(kinds));
-            self.problems.push(Problem::new(place, "missing", mend));
+            let help = format!("add it: one of {}", list(kinds));
+            self.problems.push(Problem::new(place, "missing", help));
             return;
         };
         match variants.iter().find(|variant| tag(variant) == kind.as_str()) {
@@ -253,10 +253,10 @@ fn join(path: &str, key: &str) -> String {
 }
 
 /// "give a number: Metres per second"
-fn with_about(mend: &str, about: Option<&str>) -> String {
+fn with_about(help: &str, about: Option<&str>) -> String {
     match about {
-        Some(about) => format!("{mend}: {}", about.trim_end_matches('.')),
-        None => mend.to_string(),
+        Some(about) => format!("{help}: {}", about.trim_end_matches('.')),
+        None => help.to_string(),
     }
 }
 

@@ -35,7 +35,7 @@ pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
     let names = names.filter(|name| materials > 1 || *name != "material");
     let Some(column) = column::find(&color.by).filter(|column| names.clone().any(|name| name == column.name))
     else {
-        let (what, mend) = match column::find(&color.by) {
+        let (what, help) = match column::find(&color.by) {
             Some(_) if color.by == "material" => (
                 "all particles are of one material".to_owned(),
                 format!(
@@ -52,7 +52,7 @@ pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
                 suggest(&color.by, names),
             ),
         };
-        report.problem("render.color.by", what, mend);
+        report.problem("render.color.by", what, help);
         return None;
     };
     Some(Coloring {
@@ -71,8 +71,8 @@ fn check_range([low, high]: [f64; 2], report: &mut Report) {
         let what = format!("{} is not below {}", number(low), number(high));
         report.problem(path, what, "give the lower value first, or leave the range out");
     } else if low.abs().max(high.abs()) > LARGEST {
-        let mend = format!("stay between -{0} and {0}", number(LARGEST));
-        report.problem(path, "too large", mend);
+        let help = format!("stay between -{0} and {0}", number(LARGEST));
+        report.problem(path, "too large", help);
     }
 }
 

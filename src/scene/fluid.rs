@@ -330,11 +330,11 @@ pub fn material(path: &str, name: Option<&str>, file: &SceneFile, report: &mut R
         Some(name) => match names.clone().position(|known| known == name) {
             Some(index) => index as u32,
             None => {
-                let mend = match materials {
+                let help = match materials {
                     [] => "leave it out, or describe it in fluid.materials".to_owned(),
                     _ => suggest(name, names),
                 };
-                report.problem(path, format!("no material is called \"{name}\""), mend);
+                report.problem(path, format!("no material is called \"{name}\""), help);
                 0
             }
         },

@@ -18,8 +18,8 @@ pub struct Report {
 }
 
 impl Report {
-    pub fn problem(&mut self, path: impl Into<String>, what: impl Into<String>, mend: impl Into<String>) {
-        self.problems.push(Problem::new(path, what, mend));
+    pub fn problem(&mut self, path: impl Into<String>, what: impl Into<String>, help: impl Into<String>) {
+        self.problems.push(Problem::new(path, what, help));
     }
 
     /// A point or vector with as many numbers as the scene has dimensions; a 2D scene may give z as 0.
@@ -186,14 +186,14 @@ fn sides(file: &SceneFile, dimensions: Dimensions, report: &mut Report) -> [[Wal
             let of_grains = matches!(side, Wall::Contact | Wall::Clamp);
             let of_fluids = matches!(side, Wall::Particles | Wall::Planes | Wall::Periodic);
             if of_grains && file.fluid.is_some() || of_fluids && file.grains.is_some() {
-                let (matter, mend) = match file.fluid {
+                let (matter, help) = match file.fluid {
                     Some(_) => ("a fluid", "choose `particles`, `planes`, `open` or `periodic`"),
                     None => ("grains", "choose `contact`, `clamp` or `open`"),
                 };
                 report.problem(
                     format!("domain.sides.{}_{end}", AXES[axis]),
                     format!("{matter} cannot have this kind of wall"),
-                    mend,
+                    help,
                 );
             }
         }

@@ -68,14 +68,14 @@ impl<'de> Visitor<'de> for StrictVisitor {
     }
 }
 
-/// What a syntax error most likely is, and its mend.
+/// What a syntax error most likely is, and its help.
 fn explain(text: &str, error: &serde_json::Error) -> Problem {
     let place = format!("line {}, column {}", error.line(), error.column());
     let full = error.to_string();
     let what = full.split(" at line ").next().unwrap_or(&full);
     let word = word_at(text, error.line(), error.column());
     let bare = word.trim_start_matches(['-', '+']).to_lowercase();
-    let (what, mend) = if ["nan", "inf", "infinity"].contains(&bare.as_str()) {
+    let (what, help) = if ["nan", "inf", "infinity"].contains(&bare.as_str()) {
         (
             format!("`{word}` is not a JSON number"),
             "JSON has no NaN and no Infinity; give a finite number",
@@ -91,12 +91,12 @@ fn explain(text: &str, error: &serde_json::Error) -> Problem {
             "JSON has no comments; remove it, or use `description`",
         )
     } else {
-        (what.to_string(), mend_for(what))
+        (what.to_string(), help_for(what))
     };
-    Problem::new(place, what, mend)
+    Problem::new(place, what, help)
 }
 
-fn mend_for(what: &str) -> &'static str {
+fn help_for(what: &str) -> &'static str {
     const MENDS: &[(&str, &str)] = &[
         ("twice", "keep one of them"),
         ("trailing comma", "remove the comma before the closing bracket"),
@@ -113,7 +113,7 @@ fn mend_for(what: &str) -> &'static str {
     ];
     MENDS.iter().find(|(part, _)| what.contains(part)).map_or(
         "give a number, \"text\", true, false, [list] or {object}",
-        |(_, mend)| mend,
+        |(_, help)| help,
     )
 }
 

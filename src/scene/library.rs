@@ -60,11 +60,11 @@ pub fn entries() -> Result<Vec<Entry>> {
 
 /// The error for a name that is neither a file nor a scene that ships.
 pub fn unknown(name: &str) -> Error {
-    let mend = format!(
+    let help = format!(
         "{} (or give the path of a scene file)",
         text::suggest(name, names())
     );
-    Error::usage(format!("there is no scene or file \"{name}\""), mend)
+    Error::usage(format!("there is no scene or file \"{name}\""), help)
 }
 
 /// The folder that paths in scenes that ship start from. What they name is unpacked once into the system's folder for

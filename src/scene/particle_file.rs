@@ -32,7 +32,7 @@ pub struct Attribute {
     pub values: Vec<f64>,
 }
 
-/// Reads particles; the extension names the format. An error is a sentence with the place and the mend.
+/// Reads particles; the extension names the format. An error is a sentence with the place and the help.
 pub fn load(path: &Path, dimensions: Dimensions) -> Result<Loaded, String> {
     let table = read(path)?;
     table

@@ -111,8 +111,8 @@ impl Unroll<'_> {
                 Some(law) => Some(law.changed(&place, change, report)),
                 None => {
                     if change.changes_contacts() {
-                        let mend = "a fluid has no contacts: only `gravity` can change";
-                        report.problem(&place, "changes how grains touch", mend);
+                        let help = "a fluid has no contacts: only `gravity` can change";
+                        report.problem(&place, "changes how grains touch", help);
                     }
                     None
                 }
@@ -348,9 +348,9 @@ fn unknown<'a>(
     known: impl Iterator<Item = &'a str> + Clone,
     report: &mut Report,
 ) {
-    let mend = match known.clone().next() {
+    let help = match known.clone().next() {
         Some(_) => suggest(name, known),
         None => format!("no {thing} has a name; give it one"),
     };
-    report.problem(path, format!("no {thing} is called \"{name}\""), mend);
+    report.problem(path, format!("no {thing} is called \"{name}\""), help);
 }

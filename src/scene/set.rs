@@ -11,7 +11,7 @@ use crate::error::Problem;
 /// elements are not.
 pub fn apply(scene: &mut Value, assignment: &str) -> Result<(), Problem> {
     let place = || format!("--set {assignment}");
-    let fail = |what: String, mend: String| Problem::new(place(), what, mend);
+    let fail = |what: String, help: String| Problem::new(place(), what, help);
     let Some((path, text)) = assignment.split_once('=') else {
         return Err(fail(
             "no `=`".into(),
@@ -35,8 +35,8 @@ pub fn apply(scene: &mut Value, assignment: &str) -> Result<(), Problem> {
                 }
                 let kind = kind(here);
                 let object = here.as_object_mut().ok_or_else(|| {
-                    let mend = format!("`{walked}` holds {kind}; set it whole, or mend the path");
-                    fail(format!("`{walked}` has no key `{key}`"), mend)
+                    let help = format!("`{walked}` holds {kind}; set it whole, or help the path");
+                    fail(format!("`{walked}` has no key `{key}`"), help)
                 })?;
                 if !walked.is_empty() {
                     walked.push('.');
@@ -47,7 +47,7 @@ pub fn apply(scene: &mut Value, assignment: &str) -> Result<(), Problem> {
             Step::Element(index) => {
                 let kind = kind(here);
                 let count = here.as_array().map_or(0, Vec::len);
-                let mend = match count {
+                let help = match count {
                     0 => format!("`{walked}` holds {kind}; set it whole: {walked}=[...]"),
                     _ => format!(
                         "`{walked}` has {count}, counted from 0: the last is {walked}[{}]",
@@ -56,7 +56,7 @@ pub fn apply(scene: &mut Value, assignment: &str) -> Result<(), Problem> {
                 };
                 let missing = format!("there is no `{walked}[{index}]`");
                 walked.push_str(&format!("[{index}]"));
-                here.get_mut(index).ok_or_else(|| fail(missing, mend))?
+                here.get_mut(index).ok_or_else(|| fail(missing, help))?
             }
         };
     }

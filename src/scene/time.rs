@@ -74,7 +74,7 @@ pub fn of_grains(
             ));
         }
     }
-    let mend = "raise `fps`, make grains.spring softer, or lower grains.damping and grains.shear";
+    let help = "raise `fps`, make grains.spring softer, or lower grains.damping and grains.shear";
     let adaptive = time.adaptive.then_some(StepLimits {
         expected: step,
         constant: (step, limited_by),
@@ -86,7 +86,7 @@ pub fn of_grains(
     Time {
         contact_duration: Some(shortest),
         adaptive,
-        ..fit_frames(time, frames, step, limited_by, mend, report)
+        ..fit_frames(time, frames, step, limited_by, help, report)
     }
 }
 
@@ -108,12 +108,12 @@ pub fn of_fluid(time: &model::Time, frames: u32, fluid: &Fluid, gravity: f64, re
             number(shortest)
         ));
     }
-    let mend = "raise `fps`, lower fluid.sound_speed, or raise fluid.spacing";
+    let help = "raise `fps`, lower fluid.sound_speed, or raise fluid.spacing";
     Time {
         adaptive: time
             .adaptive
             .then(|| fluid.adaptive_limits(gravity, step, time.step)),
-        ..fit_frames(time, frames, step, limited_by, mend, report)
+        ..fit_frames(time, frames, step, limited_by, help, report)
     }
 }
 
@@ -123,7 +123,7 @@ fn fit_frames(
     frames: u32,
     step: f64,
     limited_by: &'static str,
-    mend: &str,
+    help: &str,
     report: &mut Report,
 ) -> Time {
     let frame = 1.0 / time.fps;
@@ -136,7 +136,7 @@ fn fit_frames(
                 number(steps_per_frame),
                 number(step)
             ),
-            mend,
+            help,
         );
     }
     Time {

@@ -341,11 +341,11 @@ fn render(file: &SceneFile, frame: &Frame, report: &mut Report) -> Render {
     for (key, point) in [("eye", &mut camera.eye), ("target", &mut camera.target)] {
         let Some(point) = point else { continue };
         if let Some(far) = point.iter().find(|x| x.abs() > 1e9) {
-            let mend = "give numbers between -1e9 and 1e9";
+            let help = "give numbers between -1e9 and 1e9";
             report.problem(
                 format!("render.camera.{key}"),
                 format!("{} is too large", number(*far)),
-                mend,
+                help,
             );
         }
         *point = frame.local(DVec3::from(*point)).into();

@@ -88,8 +88,8 @@ fn domain_sides(
             let path = format!("domain.side_velocities.{name}");
             let velocity = report.optional(&path, given, frame.dimensions);
             if given.is_some() && !matches!(frame.sides[axis][end], Wall::Particles | Wall::Planes) {
-                let mend = format!("leave it out, or set domain.sides.{name} to `particles` or `planes`");
-                report.problem(path, "this side has no surface that could move", mend);
+                let help = format!("leave it out, or set domain.sides.{name} to `particles` or `planes`");
+                report.problem(path, "this side has no surface that could move", help);
             }
             velocity
         })

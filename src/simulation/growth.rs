@@ -90,9 +90,9 @@ impl Simulation {
             }))
         };
         let plan = plan(grid).or_else(|_| exact()).map_err(|error| match error {
-            Error::Limit { what, mend } => Error::Limit {
+            Error::Limit { what, help } => Error::Limit {
                 what: format!("the grid must grow after {} steps: {what}", self.submitted),
-                mend,
+                help,
             },
             other => other,
         })?;

@@ -190,7 +190,7 @@ fn parts(counts: &NeighborCounts, room: usize) -> Result<Vec<Part>> {
                     "point {} has {count} neighbors, and the adapter holds {room} at once",
                     counts.id[slot]
                 ),
-                mend: "take a smaller radius, or ask for counts alone".into(),
+                help: "take a smaller radius, or ask for counts alone".into(),
             });
         }
         match parts.last_mut() {
@@ -227,7 +227,7 @@ fn reserve(neighbors: u64) -> Result<Vec<u32>> {
         Ok(()) => Ok(vec![0; neighbors as usize]),
         Err(_) => Err(Error::Limit {
             what: format!("lists of {neighbors} neighbors need {} bytes", 4 * neighbors),
-            mend: "take a smaller radius, or ask for counts alone".into(),
+            help: "take a smaller radius, or ask for counts alone".into(),
         }),
     }
 }

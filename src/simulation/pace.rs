@@ -65,7 +65,7 @@ impl Simulation {
                 limits.expected,
                 names(limits)[pace.limit as usize],
             ),
-            mend: "look at the frame before for particles that are far too fast, set time.adaptive to false, or begin \
+            help: "look at the frame before for particles that are far too fast, set time.adaptive to false, or begin \
                    with a scene whose particles do not lie in one another"
                 .into(),
         })

@@ -23,10 +23,10 @@ impl Sequence {
     /// Reads the folder of a run.
     pub fn open(run: &Path) -> Result<Self> {
         let path = run.join("run.json");
-        let mend = "give the folder of a run, which has a run.json";
-        let text = std::fs::read(&path).map_err(|reason| Error::file(&path, "read", reason, mend))?;
+        let help = "give the folder of a run, which has a run.json";
+        let text = std::fs::read(&path).map_err(|reason| Error::file(&path, "read", reason, help))?;
         let manifest: Value =
-            serde_json::from_slice(&text).map_err(|reason| Error::file(&path, "read", reason, mend))?;
+            serde_json::from_slice(&text).map_err(|reason| Error::file(&path, "read", reason, help))?;
         let scene = &manifest["scene"];
         let spacing = scene["fluid"]["spacing"].as_f64();
         let radius = scene["grains"]["radius"]
@@ -38,7 +38,7 @@ impl Sequence {
                 &path,
                 "read",
                 "it says no radius of particles, or no dimensions",
-                mend,
+                help,
             ));
         };
         let frames = frames(run)?;

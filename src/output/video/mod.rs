@@ -238,13 +238,13 @@ impl Video {
         let Some(folder) = &self.pictures else {
             return error;
         };
-        let mend = format!(
+        let help = format!(
             "the frames are there all the same: ffmpeg -framerate {} -i {} -pix_fmt yuv420p {}",
             self.rate,
             folder.join("frame_%06d.png").display(),
             self.output.path.display()
         );
-        Error::file(&self.output.path, "make the video", error, mend)
+        Error::file(&self.output.path, "make the video", error, help)
     }
 
     fn fail(&mut self, error: Error) -> Result<()> {

@@ -33,10 +33,10 @@ pub struct Imported {
 
 /// Reads a peer's scene file. Paths in the result start from the folder `into`, or are absolute.
 pub fn import(path: &Path, into: Option<&Path>) -> Result<Imported> {
-    let mend = "give a scene file of SPlisHSPlasH: JSON with Configuration, RigidBodies, FluidBlocks, …";
-    let text = std::fs::read_to_string(path).map_err(|reason| Error::file(path, "read", reason, mend))?;
+    let help = "give a scene file of SPlisHSPlasH: JSON with Configuration, RigidBodies, FluidBlocks, …";
+    let text = std::fs::read_to_string(path).map_err(|reason| Error::file(path, "read", reason, help))?;
     let value: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
-        .map_err(|reason| Error::file(path, "read", reason, mend))?;
+        .map_err(|reason| Error::file(path, "read", reason, help))?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut keys = keys::Keys::new(value);
     let peer = peer::read(&mut keys).map_err(|problem| Error::Scene {
@@ -83,7 +83,7 @@ fn nothing_left(path: &Path, ignored: &[Ignored]) -> Error {
         .map(|ignored| format!("\n  ignored: {ignored}"))
         .collect();
     let has_emitters = ignored.iter().any(|ignored| ignored.path.starts_with("Emitters"));
-    let (what, mend) = match has_emitters {
+    let (what, help) = match has_emitters {
         true => (
             "all its fluid comes from Emitters, which are not imported, so no particles remain",
             "give it FluidBlocks or FluidModels; emitters of Sliceflow are `emitters` in its own scenes",
@@ -93,7 +93,7 @@ fn nothing_left(path: &Path, ignored: &[Ignored]) -> Error {
             "give it FluidBlocks or FluidModels",
         ),
     };
-    Error::usage(format!("{}: {what}{list}", path.display()), mend)
+    Error::usage(format!("{}: {what}{list}", path.display()), help)
 }
 
 /// Where the peer's files are, and how the new scene names them.

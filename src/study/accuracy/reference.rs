@@ -101,8 +101,8 @@ impl Table {
     }
 }
 
-fn wrong(file: &str, what: impl std::fmt::Display, mend: impl Into<String>) -> Error {
-    Error::file(Path::new(file), "read", what, mend)
+fn wrong(file: &str, what: impl std::fmt::Display, help: impl Into<String>) -> Error {
+    Error::file(Path::new(file), "read", what, help)
 }
 
 /// Lid-driven cavity: u along the vertical center line over y, v along the horizontal one over x, for speed and side
