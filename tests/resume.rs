@@ -145,6 +145,7 @@ fn adaptive_steps_go_on() {
         let state = halves(&scene, &format!("fluid, {integrator}"));
         assert!(state.buffer("pace").is_some());
     }
+    halves(&common::fluid(2, &["fluid.solver=dfsph", "time.fps=60"]), "dfsph");
 }
 
 /// Grains fly apart, so that the grid grows before and behind the middle.

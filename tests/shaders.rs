@@ -85,6 +85,19 @@ fn fluid_plans() -> Vec<Plan> {
             }
         }
     }
+    for dimensions in [2, 3] {
+        for walls in ["particles", "periodic", "open"] {
+            for drag in [
+                "fluid.viscosity=0",
+                "fluid.viscosity=0.1",
+                "fluid.artificial_viscosity=0.1",
+            ] {
+                let walls = format!("domain.walls={walls}");
+                let scene = common::fluid(dimensions, &["fluid.solver=dfsph", drag, &walls]);
+                plans.push(Plan::new(&scene, &Limits::PROMISED, &wanted()).expect("a plan"));
+            }
+        }
+    }
     plans
 }
 

@@ -2,6 +2,8 @@
 // the passes that would use it are dispatched with nothing, until the host has made more room and searches again
 // (simulation/growth.rs).
 
+#import storage/sorted/entries
+
 struct SearchState {
     halted: u32, // not zero: there was too little room, and nothing runs
     voxels: u32, // that this search has, or would have
@@ -56,7 +58,6 @@ fn set_voxels(voxels: u32) -> bool {
         return false;
     }
     set_groups(DISPATCH_VOXELS, (voxels + GROUP_SIZE - 1u) / GROUP_SIZE);
-    // The quarantine behind the voxels, and one entry more for the end.
-    set_groups(DISPATCH_SCAN, (voxels + 2u + SCAN_THREADS * SCAN_ITEMS - 1u) / (SCAN_THREADS * SCAN_ITEMS));
+    set_groups(DISPATCH_SCAN, (entries(voxels) + SCAN_THREADS * SCAN_ITEMS - 1u) / (SCAN_THREADS * SCAN_ITEMS));
     return true;
 }

@@ -4,6 +4,8 @@ struct Parameters {
     gravity: vec4f, // m/s²
     particle_count: u32,
     time_step: f32, // s
+    free_count: u32, // of particles that are no boundary particles
+    first_wall: u32, // ids from here on are boundary particles
 }
 
 var<uniform> parameters: Parameters;

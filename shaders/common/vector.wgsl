@@ -1,16 +1,23 @@
 // Points and directions: two components in a 2D scene, three in a 3D scene. Metres, m/s, m/s².
 
+// As stored: one load brings a vector and, in w, a number that a solver keeps beside it.
+alias Packed = vec4f;
+
+fn pack(v: Vector) -> Packed {
+    return pack_with(v, 0.0);
+}
+
 #if two_dimensional
 alias Vector = vec2f;
-alias Packed = vec2f; // as stored
 alias Coordinate = vec2i; // of a voxel
 
 fn unpack(stored: Packed) -> Vector {
-    return stored;
+    return stored.xy;
 }
 
-fn pack(v: Vector) -> Packed {
-    return v;
+// With a number of the particle beside it.
+fn pack_with(v: Vector, number: f32) -> Packed {
+    return vec4f(v, 0.0, number);
 }
 
 // The two components of a uniform that has room for four.
@@ -23,15 +30,15 @@ fn to_3d(v: Vector) -> vec3f {
 }
 #else
 alias Vector = vec3f;
-alias Packed = vec4f; // as stored; w is not used
 alias Coordinate = vec3i; // of a voxel
 
 fn unpack(stored: Packed) -> Vector {
     return stored.xyz;
 }
 
-fn pack(v: Vector) -> Packed {
-    return vec4f(v, 0.0);
+// With a number of the particle beside it.
+fn pack_with(v: Vector, number: f32) -> Packed {
+    return vec4f(v, number);
 }
 
 // The three components of a uniform that has room for four.

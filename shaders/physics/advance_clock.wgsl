@@ -1,11 +1,14 @@
 #flag advances_clock
 #import physics/clock
+#import physics/guard
 #if adaptive_step
 #import physics/choose_step
 #end
 #if lists
 #import storage/lists/decide
 #end
+
+const NO_STEP: u32 = 0xffffffffu; // nothing was caught yet
 
 // One thread, once a step.
 @compute @workgroup_size(1)
@@ -15,6 +18,9 @@ fn advance_clock() {
         return;
     }
 #end
+    if atomicLoad(&guard.count) > 0u && guard.step == NO_STEP {
+        guard.step = clock.step;
+    }
     clock.step_in_segment += 1u;
     clock.step += 1u;
 #if adaptive_step

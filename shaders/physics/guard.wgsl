@@ -1,6 +1,5 @@
 // Catches a particle that became non-finite or left a closed domain, stops it, and keeps the first one's story.
 #import common/vector
-#import physics/clock
 
 struct Guard {
     lower: vec4f, // m; where a particle counts as lost, far away on open sides
@@ -8,7 +7,7 @@ struct Guard {
     position: vec4f, // of the first particle caught, m
     velocity: vec4f, // m/s
     id: u32,
-    step: u32,
+    step: u32, // advance_clock.wgsl sets it
     kind: u32, // 1: not finite, 2: lost
     count: atomic<u32>, // catches in all
 }
@@ -25,14 +24,13 @@ fn is_finite(v: Vector) -> bool {
 }
 
 // `moved` and `velocity` are what the step wants; on an accident the particle stays where it was, at rest.
-fn watch(particle: u32, step: u32, before: Vector, moved: ptr<function, Vector>, velocity: ptr<function, Vector>) {
+fn watch(particle: u32, before: Vector, moved: ptr<function, Vector>, velocity: ptr<function, Vector>) {
     let finite = is_finite(*moved) && is_finite(*velocity);
     if finite && all(*moved >= first(guard.lower)) && all(*moved <= first(guard.upper)) {
         return;
     }
     if atomicAdd(&guard.count, 1u) == 0u {
         guard.id = particle;
-        guard.step = step;
         guard.kind = select(GUARD_LOST, GUARD_NOT_FINITE, !finite);
         guard.position = vec4f(to_3d(before), 0.0);
         guard.velocity = vec4f(to_3d(*velocity), 0.0);

@@ -1,9 +1,9 @@
 // Takes a particle from where a step left it to its slot in the order of the search.
 #import common/vector
+#import storage/next_id
+#import storage/next_position
 
-var<storage, read> next_position: array<Packed>;
 var<storage, read> next_velocity: array<Packed>;
-var<storage, read> next_id: array<u32>;
 var<storage, read_write> position: array<Packed>;
 var<storage, read_write> velocity: array<Packed>;
 var<storage, read_write> id: array<u32>;

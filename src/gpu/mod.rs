@@ -19,6 +19,6 @@ pub use buffers::Buffers;
 pub use compose::Variant;
 pub use device::{AdapterChoice, Gpu};
 pub use draw::{Blend, Draw, DrawStyle};
-pub use parts::{BufferPlan, DISPATCHES, Items, PassPlan};
+pub use parts::{BufferPlan, DISPATCHES, Items, PassPlan, Repeat};
 pub use pass::{Groups, Kernel, Pass};
 pub use reflect::Shader;

@@ -81,6 +81,8 @@ pub enum Items {
     AwayParticles,
     /// One a particle, when the last move returned them and they are searched anew.
     ReturnedParticles,
+    /// One a particle, as long as the loop of this number goes on.
+    Loop(u32),
     /// A number known beforehand, come what may.
     Fixed(u32),
 }
@@ -106,9 +108,18 @@ impl Items {
             Self::AwayParticles => Some(("dispatch", 8)),
             Self::ReturnedParticles => Some(("dispatch", 9)),
             Self::SearchedOnce => Some(("search_dispatch", 0)),
+            Self::Loop(number) => Some(("loop_dispatch", number.into())),
             Self::Fixed(_) => None,
         }
     }
+}
+
+/// Passes in a row that are recorded several times. The device leaves out what it does not need ([`Items::Loop`]).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Repeat {
+    /// Tells loops of a step apart.
+    pub number: u32,
+    pub times: u32,
 }
 
 /// A compute pass that a plan asks for. Its label is its entry point: a verb.
@@ -121,6 +132,9 @@ pub struct PassPlan {
     /// Which one it is, where a pass runs several times: `pass_index` of `common/pass_index.wgsl`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub index: Option<u32>,
+    /// The loop that it belongs to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repeat: Option<Repeat>,
     /// Whether particles' buffers and their `next_` buffers change places.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub flipped: bool,
@@ -134,6 +148,7 @@ impl PassPlan {
             entry: entry.to_owned(),
             items,
             index: None,
+            repeat: None,
             flipped: false,
             why: why.into(),
         }

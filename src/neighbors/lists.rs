@@ -1,10 +1,11 @@
 //! Neighbor lists (Verlet 1967): each particle's neighbors within the search radius and a skin serve every step until a
 //! particle has moved by half the skin; only then are particles searched anew. The device decides.
 
-use super::Search;
 use super::addressing::search_state;
 use super::layout::ListState;
+use super::{Search, storage};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
+use crate::scene::model::FluidSolver;
 use crate::scene::{Dimensions, Matter, Scene};
 
 /// Shader of the pass that counts a step; with lists it also decides whether to search.
@@ -12,7 +13,14 @@ const CLOCK: &str = "physics/advance_clock";
 
 /// Whether the scene asks for lists.
 pub fn wanted(scene: &Scene) -> bool {
-    scene.neighbors.skin > 0.0
+    scene.neighbors.skin > 0.0 || every_step(scene)
+}
+
+/// Whether lists are made in every step, for a solver that goes over them many times before particles move.
+pub fn every_step(scene: &Scene) -> bool {
+    scene
+        .fluid()
+        .is_some_and(|fluid| fluid.solver == FluidSolver::Dfsph)
 }
 
 /// Neighbors of a particle within the radius and the skin: in a dense packing of equal spheres, or on a lattice as wide
@@ -32,26 +40,21 @@ pub fn usual_length(scene: &Scene) -> u32 {
 }
 
 /// The lists' own buffers, with room for so many neighbors of each particle.
-pub fn buffers(scene: &Scene, length: u32) -> [BufferPlan; 4] {
+pub fn buffers(scene: &Scene, length: u32) -> Vec<BufferPlan> {
     let particles = u64::from(scene.capacity);
-    let vector = match scene.dimensions {
-        Dimensions::Two => 8,
-        Dimensions::Three => 16,
+    let every_step = every_step(scene);
+    // Boundary particles, which stand behind the others, have no lists there.
+    let listed = match every_step && storage::row(scene.neighbors.storage).sorts {
+        true => u64::from(scene.first_wall()),
+        false => particles,
     };
     let length = u64::from(length);
-    [
+    let mut buffers = vec![
         BufferPlan::storage(
             "neighbor_list",
-            particles * length,
+            listed * (length + 1),
             4,
-            format!("up to {length} neighbors of each particle"),
-        ),
-        BufferPlan::storage("list_length", particles, 4, "how many they are"),
-        BufferPlan::storage(
-            "listed_position",
-            particles,
-            vector,
-            "where each particle was when it was listed",
+            format!("number and indices of up to {length} neighbors of each particle"),
         ),
         BufferPlan::storage(
             "list_state",
@@ -59,13 +62,23 @@ pub fn buffers(scene: &Scene, length: u32) -> [BufferPlan; 4] {
             ListState::LAYOUT.size as u64,
             "whether the lists still serve",
         ),
-    ]
+    ];
+    if !every_step {
+        buffers.push(BufferPlan::storage(
+            "listed_position",
+            particles,
+            size_of::<[f32; 4]>() as u64,
+            "where each particle was when it was listed",
+        ));
+    }
+    buffers
 }
 
 /// Puts the lists behind a search, and lets the search run only when they no longer serve.
 pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
     variant
         .flag("lists", true)
+        .flag("lists_every_step", every_step(scene))
         .flag("periodic", scene.domain.period() != glam::Vec3::ZERO)
         .role("candidates", "storage/lists/query");
     search_state(search);
@@ -111,21 +124,29 @@ fn when(passes: &[PassPlan], particles: Items) -> Vec<PassPlan> {
 ///
 /// Particles keep their places meanwhile: a step moves them into the `next_` buffers and the one after it, with all
 /// passes flipped, back again.
-pub fn phases(search: &Search, before: &[PassPlan], after: &[PassPlan]) -> [Vec<PassPlan>; 2] {
+///
+/// Where every step searches, particles are always where the search left them, and nothing has to be taken back.
+pub fn phases(
+    search: &Search,
+    every_step: bool,
+    before: &[PassPlan],
+    after: &[PassPlan],
+) -> [Vec<PassPlan>; 2] {
     let copy = |items, why: &str| PassPlan::new("storage/lists/keep", "keep_particles", items, why);
-    let mut searching = vec![
-        copy(
+    let mut searching = Vec::new();
+    if !every_step {
+        searching.push(copy(
             Items::AwayParticles,
             "particles back from the `next_` buffers, when their lists serve",
-        ),
-        PassPlan {
+        ));
+        searching.push(PassPlan {
             flipped: true,
             ..copy(
                 Items::ReturnedParticles,
                 "particles into the `next_` buffers, when they are searched",
             )
-        },
-    ];
+        });
+    }
     searching.extend_from_slice(&search.passes);
     searching.extend(when(after, Items::SearchedParticles));
     searching.push(PassPlan::new(
@@ -138,6 +159,9 @@ pub fn phases(search: &Search, before: &[PassPlan], after: &[PassPlan]) -> [Vec<
     for pass in step.iter_mut().filter(|pass| pass.shader == CLOCK) {
         // It decides what is dispatched, so it cannot be dispatched from that buffer.
         pass.items = Items::Fixed(1);
+    }
+    if every_step {
+        return [searching, step];
     }
     step.extend(
         when(after, Items::KeptParticles)

@@ -37,6 +37,8 @@ pub struct Search {
     pub grid: Grid,
     pub buffers: Vec<BufferPlan>,
     pub passes: Vec<PassPlan>,
+    /// Whether boundary particles stand behind all others.
+    separated: bool,
     /// Flags of the variant that the addressing and the storage need.
     flags: Vec<&'static str>,
     /// Constants of the variant that the storage needs.
@@ -162,6 +164,7 @@ pub fn plan(scene: &Scene, grid: Grid, variant: &mut Variant) -> Search {
 impl Search {
     /// Everything that a scene's search has, with room for so many particles and for the voxels that `grid` says.
     fn new(scene: &Scene, grid: Grid, particles: u32) -> Self {
+        let storage = storage::row(scene.neighbors.storage);
         let mut search = Self {
             buffers: vec![
                 BufferPlan::uniform("grid", Grid::LAYOUT.size, "place and size of the voxels"),
@@ -176,14 +179,18 @@ impl Search {
             flags: Vec::new(),
             constants: Vec::new(),
             notes: Vec::new(),
+            separated: storage.sorts && !scene.walls.is_empty(),
             grid,
         };
+        if search.separated {
+            search.flags.push("separated");
+        }
         let addressing = addressing::row(scene.neighbors.addressing);
         if matches!(addressing.room, RoomRule::Fixed(_)) {
             search.flags.push("fixed_room");
         }
         (addressing.plan)(&mut search, scene);
-        (storage::row(scene.neighbors.storage).plan)(&mut search, particles, &scene.neighbors);
+        (storage.plan)(&mut search, particles, &scene.neighbors);
         search
     }
 }

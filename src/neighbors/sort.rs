@@ -4,7 +4,7 @@
 //! Sorting once more what the last search left does no harm, so the passes in between run a fixed number of threads.
 
 use super::addressing::{self, RoomRule};
-use super::storage::{clear_voxels, scan, voxel_starts};
+use super::storage::{clear_voxels, entries, scan, voxel_starts};
 use super::{Search, room};
 use crate::gpu::compose::{SCAN_ITEMS, SCAN_THREADS};
 use crate::gpu::{BufferPlan, Items, PassPlan};
@@ -22,9 +22,13 @@ const SORT_BLOCK: u32 = 1024;
 /// Values that half of a packed pair can have (Rojas 2013: 2⁸ × 2⁸ voxels, 2¹⁶ particles).
 const PACKED: u64 = 1 << 16;
 
-/// Different addresses that particles have: those of voxels, and where space has no bounds, the quarantine's.
-fn keys(search: &Search) -> u64 {
-    u64::from(search.grid.capacity) + u64::from(!search.flags.contains(&"bounded"))
+/// Different keys that particles are sorted by: voxels, and where space has no bounds, the quarantine; twice as many where
+/// boundary particles stand apart.
+fn keys(search: &Search, voxels: u32) -> u64 {
+    if search.separated {
+        return entries(voxels, true) - 1;
+    }
+    u64::from(voxels) + u64::from(!search.flags.contains(&"bounded"))
 }
 
 /// Threads of a prefix sum over so many items.
@@ -63,7 +67,7 @@ pub fn radix(search: &mut Search, particles: u32, neighbors: &Neighbors) {
     let runs = particles.div_ceil(RUN);
     let counters = u64::from(runs) << DIGIT_BITS;
     // The highest voxel says how many digits there are.
-    let bits = u64::BITS - (keys(search) - 1).leading_zeros();
+    let bits = u64::BITS - (keys(search, search.grid.capacity) - 1).leading_zeros();
     let digits = bits.div_ceil(DIGIT_BITS).max(1);
     search.buffers.extend([
         BufferPlan::storage(
@@ -101,8 +105,8 @@ pub fn bitonic(search: &mut Search, particles: u32, neighbors: &Neighbors) {
     let pairs = u64::from(particles);
     // What holds for all that the grid may grow to, since a run keeps its shaders.
     let voxels = match addressing::row(neighbors.addressing).room {
-        RoomRule::Followed(_) => keys(search).max(u64::from(room::most(&search.grid).voxels) + 1),
-        RoomRule::Fixed(_) => keys(search),
+        RoomRule::Followed(_) => keys(search, search.grid.capacity.max(room::most(&search.grid).voxels)),
+        RoomRule::Fixed(_) => keys(search, search.grid.capacity),
     };
     let packed = pairs <= PACKED && voxels <= PACKED;
     if packed {

@@ -13,6 +13,8 @@ pub struct StorageRow {
     pub source: &'static str,
     /// Shader file that answers `candidate_range`, `candidate` and `occupancy`.
     pub query: &'static str,
+    /// Whether particles stand in voxel order, boundary particles behind all others.
+    pub sorts: bool,
     /// Adds what it needs to a search, for so many particles.
     pub plan: fn(&mut Search, particles: u32, &Neighbors),
 }
@@ -23,6 +25,7 @@ pub const STORAGES: &[StorageRow] = &[
         name: "counting",
         source: "Green 2012, two-pass atomics",
         query: "storage/sorted/query",
+        sorts: true,
         plan: counting,
     },
     StorageRow {
@@ -30,6 +33,7 @@ pub const STORAGES: &[StorageRow] = &[
         name: "pool",
         source: "Harada 2007's index pool; Green 2012, atomics",
         query: "storage/pool/query",
+        sorts: false,
         plan: pool,
     },
     StorageRow {
@@ -37,6 +41,7 @@ pub const STORAGES: &[StorageRow] = &[
         name: "radix",
         source: "Green 2012, sorting",
         query: "storage/sorted/query",
+        sorts: true,
         plan: sort::radix,
     },
     StorageRow {
@@ -44,6 +49,7 @@ pub const STORAGES: &[StorageRow] = &[
         name: "bitonic",
         source: "Rojas 2013",
         query: "storage/sorted/query",
+        sorts: true,
         plan: sort::bitonic,
     },
 ];
@@ -71,10 +77,15 @@ pub(super) fn scan(search: &mut Search, shader: &str, items: u64, how: [Items; 2
     ]);
 }
 
+/// Entries of `voxel_start` (`shaders/storage/sorted/entries.wgsl`): the voxels, the quarantine behind them, all of these
+/// once more where boundary particles stand apart, and the end.
+pub fn entries(voxels: u32, separated: bool) -> u64 {
+    (1 + u64::from(separated)) * (u64::from(voxels) + 1) + 1
+}
+
 /// Adds `voxel_start` with the pass that clears it, for storages in voxel order.
 pub(super) fn clear_voxels(search: &mut Search) {
-    // The quarantine behind the voxels, and one entry more for the end.
-    let items = u64::from(search.grid.capacity) + 2;
+    let items = entries(search.grid.capacity, search.separated);
     search.buffers.push(BufferPlan::storage(
         "voxel_start",
         items,
@@ -91,7 +102,7 @@ pub(super) fn clear_voxels(search: &mut Search) {
 
 /// Adds the prefix sum that turns counts in `voxel_start` into first particles.
 pub(super) fn voxel_starts(search: &mut Search) {
-    let items = u64::from(search.grid.capacity) + 2;
+    let items = entries(search.grid.capacity, search.separated);
     let how = [Items::VoxelBlocks, Items::Once];
     scan(search, "storage/sorted/scan_voxels", items, how, "voxels");
 }

@@ -15,7 +15,7 @@ use crate::error::Result;
 use crate::scene::Dimensions;
 use crate::simulation::State;
 
-const MAGIC: &[u8] = b"sliceflow checkpoint 1\n";
+const MAGIC: &[u8] = b"sliceflow checkpoint 2\n";
 const CHECKSUM_BYTES: usize = 32;
 
 #[derive(Debug, Clone, PartialEq)]

@@ -10,6 +10,7 @@ use serde_json::{Map, Value};
 
 use super::{Sink, disk};
 use crate::error::Result;
+use crate::physics::layout::Convergence;
 use crate::simulation::frame::{AdaptiveSteps, Frame, Statistics};
 
 /// Appends a line as soon as a frame is there, so that a run can be followed with `tail -f`.
@@ -68,6 +69,9 @@ struct Line {
     quarantined: u32,
     #[serde(flatten)]
     measured: Option<Measured>,
+    /// Of the solver `dfsph`, since the last frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pressure_solver: Option<PressureSolver>,
     /// Sum over the frame's steps, by pass; only with `--timings`.
     #[serde(skip_serializing_if = "Map::is_empty")]
     pass_ms: Map<String, Value>,
@@ -91,6 +95,39 @@ impl From<&AdaptiveSteps> for Adaptive {
             steps_limited_by: limited
                 .map(|(name, steps)| ((*name).to_owned(), (*steps).into()))
                 .collect(),
+        }
+    }
+}
+
+/// How the loops of an iterative pressure solver went.
+#[derive(Serialize)]
+struct PressureSolver {
+    /// Iterations of a step, on average and at most.
+    density_iterations_mean: f64,
+    density_iterations_max: u32,
+    /// What the worst step stopped at: mean of max(ρ/ρ₀ − 1, 0) over the particles.
+    density_error_max: f64,
+    /// Steps that stopped at the largest number of iterations.
+    density_unconverged_steps: u32,
+    divergence_iterations_mean: f64,
+    divergence_iterations_max: u32,
+    /// The same, of what a step's divergence adds to ρ/ρ₀.
+    divergence_error_max: f64,
+    divergence_unconverged_steps: u32,
+}
+
+impl From<&Convergence> for PressureSolver {
+    fn from(from: &Convergence) -> Self {
+        let mean = |iterations: u32| f64::from(iterations) / f64::from(from.steps.max(1));
+        Self {
+            density_iterations_mean: mean(from.density_iterations),
+            density_iterations_max: from.most_density_iterations,
+            density_error_max: from.density_error.into(),
+            density_unconverged_steps: from.density_unconverged,
+            divergence_iterations_mean: mean(from.divergence_iterations),
+            divergence_iterations_max: from.most_divergence_iterations,
+            divergence_error_max: from.divergence_error.into(),
+            divergence_unconverged_steps: from.divergence_unconverged,
         }
     }
 }
@@ -165,6 +202,7 @@ pub fn figures(frame: &Frame) -> Map<String, Value> {
         overflow_since_last_frame: frame.overflow,
         quarantined: frame.quarantined,
         measured: frame.statistics.as_ref().map(Measured::from),
+        pressure_solver: frame.convergence.as_ref().map(PressureSolver::from),
         pass_ms: by_pass(&frame.pass_ms),
     };
     match serde_json::to_value(line) {

@@ -15,14 +15,6 @@ use crate::scene::{self, Action, Dimensions, Scene};
 /// Stands for a wall that is not there, metres; far from every f32 position and safely finite when subtracted.
 const FAR: f32 = 1e30;
 
-/// Bytes of one `Packed` vector of `common/vector.wgsl`.
-pub fn packed_bytes(dimensions: Dimensions) -> u64 {
-    match dimensions {
-        Dimensions::Two => 8,
-        Dimensions::Three => 16,
-    }
-}
-
 /// The contact laws that hold at some time during the run.
 fn contacts(scene: &Scene, grains: &scene::Grains) -> impl Iterator<Item = scene::Contact> {
     let later = scene

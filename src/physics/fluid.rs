@@ -6,13 +6,13 @@
 use glam::Vec3;
 
 use super::Solver;
-use super::dem::{bounds, has_wall, packed_bytes};
+use super::dem::{bounds, has_wall};
 use super::kernels;
-use super::layout::{Fluid, Material, Measure, Planes, Rim};
+use super::layout::{Fluid, Material, Measure, PACKED_BYTES, Planes, Rim};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::scene::column::Column;
 use crate::scene::model::{
-    DensityFrom, Integrator, Kernel, NegativePressure, PressureForce, Slip, ViscosityForm, Wall,
+    DensityFrom, FluidSolver, Integrator, Kernel, NegativePressure, PressureForce, Slip, ViscosityForm, Wall,
 };
 use crate::scene::walls::NO_BODY;
 use crate::scene::{self, Scene};
@@ -24,7 +24,7 @@ const LONGEST_SHIFT: f64 = 0.05;
 /// The shift of δ⁺-SPH in units of h × expected speed (Sun 2017, with its h half of the support).
 const USUAL_SHIFT: f64 = 4.0;
 
-fn kernel_file(kernel: Kernel) -> &'static str {
+pub(super) fn kernel_file(kernel: Kernel) -> &'static str {
     match kernel {
         Kernel::CubicSpline => "physics/fluid/kernels/cubic_spline",
         Kernel::WendlandC2 => "physics/fluid/kernels/wendland_c2",
@@ -120,7 +120,7 @@ pub fn plan(
     let mut solver = Solver::default();
     let each = u64::from(scene.capacity);
     let matrix = [0, 0, 16, 48][scene.dimensions.count()];
-    let vector = packed_bytes(scene.dimensions);
+    let vector = PACKED_BYTES;
     let buffers = &mut solver.buffers;
     let mut column = |wanted: bool, name: &str, bytes: u64, why: &str| {
         if wanted {
@@ -247,7 +247,12 @@ pub fn plan(
 pub fn coefficients(scene: &Scene, fluid: &scene::fluid::Fluid) -> Fluid {
     let dimensions = scene.dimensions.count();
     let h = fluid.smoothing();
-    let scale = |sigma: f64, power: usize| (sigma / h.powi(power as i32)) as f32;
+    // Of an incompressible fluid a lattice at rest has exactly rest density, or it would begin by spreading.
+    let calibration = match fluid.solver {
+        FluidSolver::Dfsph => 1.0 / kernels::lattice_density(fluid.kernel, dimensions, h, fluid.spacing),
+        _ => 1.0,
+    };
+    let scale = |sigma: f64, power: usize| (calibration * sigma / h.powi(power as i32)) as f32;
     let sound = fluid.sound_speed;
     // h as other kernels have it: half of what the kernel reaches.
     let half = fluid.support / 2.0;
@@ -281,7 +286,6 @@ pub fn coefficients(scene: &Scene, fluid: &scene::fluid::Fluid) -> Fluid {
         surface_tension: fluid.materials[0].surface_tension as f32,
         wetting: fluid.contact_angle.to_radians().cos() as f32,
         spacing: fluid.spacing as f32,
-        first_wall: scene.first_wall(),
         closed: [closed(0), closed(1), closed(2), 0.0],
         ..Default::default()
     }

@@ -41,6 +41,22 @@ pub fn shape(kernel: Kernel, dimensions: usize, q: f64) -> f64 {
     }
 }
 
+/// ρ/ρ₀ by summation over a square or cubic lattice with so many metres between its points.
+pub fn lattice_density(kernel: Kernel, dimensions: usize, h: f64, spacing: f64) -> f64 {
+    let reach = (kernel.reach() * h / spacing).ceil() as i32;
+    let ticks = |axis: usize| if axis < dimensions { -reach..=reach } else { 0..=0 };
+    let mut sum = 0.0;
+    for x in ticks(0) {
+        for y in ticks(1) {
+            for z in ticks(2) {
+                let r = spacing * f64::from(x * x + y * y + z * z).sqrt();
+                sum += shape(kernel, dimensions, r / h);
+            }
+        }
+    }
+    sum * normalization(kernel, dimensions) * (spacing / h).powi(dimensions as i32)
+}
+
 /// df/dq. Of Müller's kernels, that of the spiky one with its own factor, see [`slope_normalization`].
 pub fn shape_slope(kernel: Kernel, dimensions: usize, q: f64) -> f64 {
     if q >= kernel.reach() {

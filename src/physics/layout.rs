@@ -3,6 +3,16 @@
 use crate::gpu::shared::SharedLayout;
 use crate::shared_struct;
 
+/// Bytes of one `Packed` vector of `common/vector.wgsl`: x, y, z (0 in 2D) and a number beside them.
+pub const PACKED_BYTES: u64 = size_of::<Packed>() as u64;
+/// Such a vector.
+pub type Packed = [f32; 4];
+
+/// A vector with nothing beside it.
+pub fn packed(v: glam::Vec3) -> Packed {
+    [v.x, v.y, v.z, 0.0]
+}
+
 shared_struct! {
     pub struct Parameters {
         /// m/s².
@@ -10,7 +20,10 @@ shared_struct! {
         pub particle_count: u32,
         /// Seconds.
         pub time_step: f32,
-        pub _pad: [u32; 2],
+        /// Particles that are no boundary particles.
+        pub free_count: u32,
+        /// Ids from here on are boundary particles.
+        pub first_wall: u32,
     }
 }
 
@@ -241,8 +254,7 @@ shared_struct! {
         pub wetting: f32,
         /// Metres.
         pub spacing: f32,
-        pub first_wall: u32,
-        pub _pad: [u32; 1],
+        pub _pad: [u32; 2],
         /// 1 along directions in which space does not repeat, else 0.
         pub closed: [f32; 4],
     }
@@ -291,6 +303,38 @@ shared_struct! {
     }
 }
 
+shared_struct! {
+    /// How the loops of `dfsph` went since the last frame.
+    pub struct Convergence {
+        pub steps: u32,
+        /// Of the loop of density, summed over the steps.
+        pub density_iterations: u32,
+        pub most_density_iterations: u32,
+        /// Steps that stopped at the largest number of iterations.
+        pub density_unconverged: u32,
+        /// What the worst step stopped at, mean of max(ρ/ρ₀ − 1, 0).
+        pub density_error: f32,
+        pub divergence_iterations: u32,
+        pub most_divergence_iterations: u32,
+        pub divergence_unconverged: u32,
+        pub divergence_error: f32,
+        pub iteration: u32,
+    }
+}
+
+shared_struct! {
+    /// What `dfsph` stops at.
+    pub struct Dfsph {
+        pub density_error: f32,
+        pub divergence_error: f32,
+        pub density_iterations: u32,
+        pub divergence_iterations: u32,
+        pub relaxation: f32,
+        pub momentum: f32,
+        pub warm_start: f32,
+    }
+}
+
 /// Everything to hold against the shaders.
 pub const SHARED: &[SharedLayout] = &[
     Parameters::LAYOUT,
@@ -308,6 +352,8 @@ pub const SHARED: &[SharedLayout] = &[
     Planes::LAYOUT,
     Rim::LAYOUT,
     Material::LAYOUT,
+    Convergence::LAYOUT,
+    Dfsph::LAYOUT,
     Sums::LAYOUT,
     Occupancy::LAYOUT,
     Overflow::LAYOUT,

@@ -2,6 +2,7 @@
 
 pub mod collider;
 pub mod dem;
+pub mod dfsph;
 pub mod fluid;
 pub mod kernels;
 pub mod layout;
@@ -29,8 +30,8 @@ fn kick() -> PassPlan {
 
 /// Buffers that velocity Verlet needs.
 fn accelerations(scene: &Scene) -> [BufferPlan; 2] {
-    let bytes = dem::packed_bytes(scene.dimensions);
-    let column = |name, why: &str| BufferPlan::storage(name, u64::from(scene.capacity), bytes, why);
+    let column =
+        |name, why: &str| BufferPlan::storage(name, u64::from(scene.capacity), layout::PACKED_BYTES, why);
     [
         column("acceleration", "velocity Verlet needs the last accelerations"),
         column("next_acceleration", "accelerations, before reordering"),

@@ -13,11 +13,11 @@ use crate::gpu::pass::{INDEX_STRIDE, fold};
 use crate::gpu::{BufferPlan, DISPATCHES, Items, PassPlan, Variant};
 use crate::neighbors::{self, Grid};
 use crate::physics::collider::Obstacles;
-use crate::physics::layout::{Clock, Guard, Occupancy, Parameters, Sums};
-use crate::physics::{dem, fluid, pace};
+use crate::physics::layout::{Clock, Guard, Occupancy, PACKED_BYTES, Parameters, Sums};
+use crate::physics::{dem, dfsph, fluid, pace};
 use crate::render;
 use crate::scene::column::{Column, Source};
-use crate::scene::model::View;
+use crate::scene::model::{FluidSolver, View};
 use crate::scene::{Dimensions, Matter, Scene};
 
 /// What is wanted of a run besides simulating; what nobody wants has no pass and no buffer.
@@ -142,11 +142,19 @@ impl Plan {
                 wanted.statistics,
                 &mut variant,
             ),
+            Matter::Fluid(fluid) if fluid.solver == FluidSolver::Dfsph => {
+                dfsph::plan(scene, fluid, &columns, wanted.statistics, &mut variant)
+            }
             Matter::Fluid(fluid) => fluid::plan(scene, fluid, &columns, wanted.statistics, &mut variant),
         };
 
         let [start, step] = if neighbors::lists::wanted(scene) {
-            neighbors::lists::phases(&search, &solver.before_search, &solver.after_search)
+            neighbors::lists::phases(
+                &search,
+                neighbors::lists::every_step(scene),
+                &solver.before_search,
+                &solver.after_search,
+            )
         } else {
             let start = [&search.passes[..], &solver.after_search].concat();
             let step = [&solver.before_search[..], &start].concat();
@@ -260,9 +268,10 @@ impl Plan {
             | Items::MovingParticles
             | Items::ReturningParticles
             | Items::AwayParticles
-            | Items::ReturnedParticles => particles,
+            | Items::ReturnedParticles
+            | Items::Loop(_) => particles,
             Items::Voxels => self.grid.capacity,
-            Items::VoxelBlocks => scan_blocks(self.grid.capacity),
+            Items::VoxelBlocks => self.scan_blocks(self.grid.capacity),
             Items::Once | Items::SearchedOnce => 1,
             Items::Fixed(count) => count,
         }
@@ -276,7 +285,7 @@ impl Plan {
         let groups = [
             particles.div_ceil(GROUP_SIZE),
             voxels.div_ceil(GROUP_SIZE),
-            scan_blocks(voxels),
+            self.scan_blocks(voxels),
             1,
             particles.div_ceil(GROUP_SIZE),
             0,
@@ -289,6 +298,13 @@ impl Plan {
             let (x, y) = fold(groups, limits.groups);
             [x, y, 1, limits.groups]
         })
+    }
+
+    /// Workgroups of a prefix sum over the entries of `voxel_start`.
+    fn scan_blocks(&self, voxels: u32) -> u32 {
+        let separated = self.variant.flags.contains("separated");
+        let entries = neighbors::storage::entries(voxels, separated);
+        entries.div_ceil(u64::from(SCAN_THREADS * SCAN_ITEMS)) as u32
     }
 
     /// What the shaders of a phase's passes are made of. Once a frame, when particles have just been searched, grains look
@@ -356,11 +372,6 @@ impl Plan {
     }
 }
 
-/// Workgroups of a prefix sum over so many voxels, the quarantine and the end.
-fn scan_blocks(voxels: u32) -> u32 {
-    (u64::from(voxels) + 2).div_ceil(u64::from(SCAN_THREADS * SCAN_ITEMS)) as u32
-}
-
 fn indices(passes: &[PassRow]) -> Vec<u32> {
     let numbers: BTreeSet<u32> = passes.iter().filter_map(|row| row.pass.index).collect();
     numbers.into_iter().collect()
@@ -397,7 +408,7 @@ fn column_bytes(scene: &Scene, column: &Column) -> u64 {
 
 /// Buffers of every simulation.
 fn state_buffers(scene: &Scene) -> Vec<BufferPlan> {
-    let vector = dem::packed_bytes(scene.dimensions);
+    let vector = PACKED_BYTES;
     let column =
         |name: &str, bytes, why: &str| BufferPlan::storage(name, u64::from(scene.capacity), bytes, why);
     vec![

@@ -16,13 +16,18 @@ use super::{Dimensions, Particles, StepLimits};
 const SOUND_OVER_FLOW: f64 = 10.0;
 /// Support over spacing, in 2D and in 3D.
 const USUAL_SUPPORT: [f64; 2] = [3.0, 2.6];
+/// Of `dfsph`: a lattice at rest then has rest density, and one layer of boundary particles is as deep as the kernel sees.
+const INCOMPRESSIBLE_SUPPORT: f64 = 2.0;
 /// Courant numbers of the time step's limits (Morris 1997).
 const SOUND_SHARE: f64 = 0.25;
 const VISCOUS_SHARE: f64 = 0.125;
 const FORCE_SHARE: f64 = 0.25;
 const CAPILLARY_SHARE: f64 = 0.25;
+/// Share of the spacing that weight alone may press an incompressible fluid together in a step.
+const INCOMPRESSIBLE_FALL: f64 = 0.01;
 /// Names of the limits that change with the flow.
 const SOUND: &str = "speed of sound";
+const MOTION: &str = "motion";
 const GRAVITY: &str = "gravity";
 
 /// A weakly compressible fluid; SI units.
@@ -40,6 +45,12 @@ pub struct Fluid {
     pub max_speed: f64,
     pub sound_speed: f64,
     pub gamma: u32,
+    /// Of `dfsph`: at which its loops stop, and most iterations of each.
+    pub max_density_error: f64,
+    pub max_divergence_error: f64,
+    pub max_iterations: u32,
+    /// Of `dfsph`: share of the spacing that the fastest particle moves in a step.
+    pub courant_number: f64,
     /// Pa.
     pub background_pressure: f64,
     pub density_from: DensityFrom,
@@ -101,7 +112,8 @@ impl Fluid {
                 "give `max_speed`, m/s",
             );
         }
-        if sound_speed < 5.0 * max_speed {
+        let compressible = given.solver != FluidSolver::Dfsph;
+        if compressible && sound_speed < 5.0 * max_speed {
             report.notes.push(format!(
                 "fluid.sound_speed {} m/s is less than five times the expected speed {} m/s: density will vary by more \
                  than 4 %",
@@ -124,12 +136,26 @@ impl Fluid {
                 number(ripple)
             ));
         }
+        if !compressible
+            && frame
+                .sides
+                .iter()
+                .flatten()
+                .any(|&side| side == model::Wall::Planes)
+        {
+            report.problem(
+                "domain.walls",
+                "the solver `dfsph` has no walls of `planes`",
+                "choose `particles`, or set fluid.solver to `wcsph`",
+            );
+        }
         let kernel = given.kernel.unwrap_or(match given.solver {
             FluidSolver::Sph => Kernel::Muller,
             FluidSolver::Wcsph => Kernel::default(),
+            FluidSolver::Dfsph => Kernel::CubicSpline,
         });
         let density_from = given.density_from.unwrap_or(match given.solver {
-            FluidSolver::Sph => DensityFrom::Summation,
+            FluidSolver::Sph | FluidSolver::Dfsph => DensityFrom::Summation,
             FluidSolver::Wcsph => DensityFrom::Continuity,
         });
         let usual = match density_from {
@@ -150,9 +176,10 @@ impl Fluid {
                 "choose another kernel, or set fluid.density_from to `summation`",
             );
         }
-        let support = given
-            .support
-            .unwrap_or(USUAL_SUPPORT[frame.dimensions.count() - 2]);
+        let support = given.support.unwrap_or(match given.solver {
+            FluidSolver::Dfsph => INCOMPRESSIBLE_SUPPORT,
+            _ => USUAL_SUPPORT[frame.dimensions.count() - 2],
+        });
         let materials = match &given.materials[..] {
             [] => vec![Material {
                 density: given.density,
@@ -189,9 +216,13 @@ impl Fluid {
             max_speed,
             sound_speed,
             gamma: given.gamma.unwrap_or(match given.solver {
-                FluidSolver::Sph => 1,
+                FluidSolver::Sph | FluidSolver::Dfsph => 1,
                 FluidSolver::Wcsph => 7,
             }),
+            max_density_error: given.max_density_error,
+            max_divergence_error: given.max_divergence_error,
+            max_iterations: given.max_iterations,
+            courant_number: given.courant_number,
             background_pressure: given.background_pressure,
             density_from,
             density_diffusion: given.density_diffusion.unwrap_or(usual),
@@ -210,6 +241,15 @@ impl Fluid {
     /// h, metres.
     pub fn smoothing(&self) -> f64 {
         self.support / self.kernel.reach()
+    }
+
+    /// How deep boundary particles reach, metres.
+    pub fn wall_depth(&self) -> f64 {
+        match self.solver {
+            // One layer: what lies deeper is out of reach at rest.
+            FluidSolver::Dfsph => self.spacing,
+            _ => self.support,
+        }
     }
 
     /// Of a particle at rest, m³ (m² in 2D).
@@ -231,8 +271,12 @@ impl Fluid {
         let tension = self.materials.iter().map(|m| m.surface_tension / m.density);
         let tension = tension.fold(0.0, f64::max);
         let fastest = kinematic.fold(0.0, f64::max) + self.artificial_viscosity * h * self.sound_speed / 8.0;
+        let signal = match self.solver {
+            FluidSolver::Dfsph => (self.courant_number * self.spacing / self.max_speed, MOTION),
+            _ => (SOUND_SHARE * h / (self.sound_speed + self.max_speed), SOUND),
+        };
         [
-            (SOUND_SHARE * h / (self.sound_speed + self.max_speed), SOUND),
+            signal,
             (VISCOUS_SHARE * h * h / fastest, "viscosity"),
             (FORCE_SHARE * (h / gravity).sqrt(), GRAVITY),
             (
@@ -253,9 +297,21 @@ impl Fluid {
     pub fn adaptive_limits(&self, gravity: f64, expected: f64, longest: Option<f64>) -> StepLimits {
         let limits = self.step_limits(gravity).into_iter();
         let constant = limits
-            .filter(|(_, name)| ![SOUND, GRAVITY].contains(name))
+            .filter(|(_, name)| ![SOUND, MOTION, GRAVITY].contains(name))
             .chain(longest.map(|step| (step, "scene's step")));
         let h = self.step_length();
+        if self.solver == FluidSolver::Dfsph {
+            return StepLimits {
+                expected,
+                constant: constant
+                    .min_by(|a, b| a.0.total_cmp(&b.0))
+                    .expect("viscosity is one"),
+                way: self.courant_number * self.spacing,
+                fall: INCOMPRESSIBLE_FALL * self.spacing,
+                sound_speed: 0.0,
+                expected_speed: 0.0,
+            };
+        }
         StepLimits {
             expected,
             constant: constant

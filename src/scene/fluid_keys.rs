@@ -1,7 +1,10 @@
 //! Keys that have no effect on what the scene is made of: a user who writes them expects something.
 
 use super::frame::Report;
-use super::model::{ColliderShape, NegativePressure, PressureForce, SceneFile, Slip, StartPressure};
+use super::model::{
+    ColliderShape, Fluid, FluidSolver, Integrator, Kernel, NegativePressure, PressureForce, SceneFile, Slip,
+    StartPressure, ViscosityForm,
+};
 
 /// A problem for each.
 pub fn check(file: &SceneFile, report: &mut Report) {
@@ -32,6 +35,13 @@ pub fn check(file: &SceneFile, report: &mut Report) {
             "leave it out, or give fluid.surface_tension (0.0728 N/m for water)",
         );
     }
+    if let Some(fluid) = file
+        .fluid
+        .as_ref()
+        .filter(|fluid| fluid.solver == FluidSolver::Dfsph)
+    {
+        of_compressible_fluids(file, fluid, report);
+    }
     if let Some(fluid) = &file.fluid
         && fluid.wall_friction > 0.0
         && fluid.slip == Slip::NoSlip
@@ -50,6 +60,49 @@ pub fn check(file: &SceneFile, report: &mut Report) {
             "fluid.negative_pressure",
             "`control` is a change of the symmetric pressure force",
             "choose `keep` or `clamp`, or set fluid.pressure_force to `symmetric`",
+        );
+    }
+}
+
+/// Those that only compressible fluids have.
+fn of_compressible_fluids(file: &SceneFile, fluid: &Fluid, report: &mut Report) {
+    let given = [
+        ("sound_speed", fluid.sound_speed.is_some()),
+        ("gamma", fluid.gamma.is_some()),
+        ("background_pressure", fluid.background_pressure > 0.0),
+        ("density_from", fluid.density_from.is_some()),
+        ("density_diffusion", fluid.density_diffusion.is_some()),
+        ("pressure_force", fluid.pressure_force != PressureForce::default()),
+        (
+            "negative_pressure",
+            fluid.negative_pressure != NegativePressure::default(),
+        ),
+        ("gradient_correction", fluid.gradient_correction),
+        ("shifting", fluid.shifting > 0.0),
+        ("wall_friction", fluid.wall_friction > 0.0),
+        ("viscosity_form", fluid.viscosity_form != ViscosityForm::default()),
+        ("surface_tension", fluid.surface_tension > 0.0),
+        ("materials", !fluid.materials.is_empty()),
+    ];
+    for (key, _) in given.into_iter().filter(|(_, given)| *given) {
+        report.problem(
+            format!("fluid.{key}"),
+            "the solver `dfsph` does not know it",
+            "leave it out, or set fluid.solver to `wcsph`",
+        );
+    }
+    if file.time.integrator != Integrator::SymplecticEuler {
+        report.problem(
+            "time.integrator",
+            "the solver `dfsph` has an integrator of its own",
+            "leave it out",
+        );
+    }
+    if fluid.kernel == Some(Kernel::Muller) {
+        report.problem(
+            "fluid.kernel",
+            "`muller` has one kernel for density and another for forces, which `dfsph` cannot use",
+            "leave it out, or choose `wendland_c2`",
         );
     }
 }

@@ -92,13 +92,15 @@ pub fn of_grains(
 
 /// The step that a fluid's sound, viscosity and weight allow, and fits frames.
 pub fn of_fluid(time: &model::Time, frames: u32, fluid: &Fluid, gravity: f64, report: &mut Report) -> Time {
+    // Steps of an incompressible fluid follow its motion; there is no sound that would limit them beforehand.
+    let adaptive = time.adaptive || fluid.solver == model::FluidSolver::Dfsph;
     let limits = fluid.step_limits(gravity);
     let (shortest, limit) = limits
         .into_iter()
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .expect("there are four limits");
     let (step, limited_by) = match time.step {
-        Some(step) if !time.adaptive || step < shortest => (step, "scene's step"),
+        Some(step) if !adaptive || step < shortest => (step, "scene's step"),
         _ => (shortest, limit),
     };
     if step > shortest * (1.0 + 1e-9) {
@@ -110,9 +112,7 @@ pub fn of_fluid(time: &model::Time, frames: u32, fluid: &Fluid, gravity: f64, re
     }
     let help = "raise `fps`, lower fluid.sound_speed, or raise fluid.spacing";
     Time {
-        adaptive: time
-            .adaptive
-            .then(|| fluid.adaptive_limits(gravity, step, time.step)),
+        adaptive: adaptive.then(|| fluid.adaptive_limits(gravity, step, time.step)),
         ..fit_frames(time, frames, step, limited_by, help, report)
     }
 }

@@ -13,7 +13,8 @@ use super::fluid::{Fluid, Speeds};
 use super::fluid_keys;
 use super::frame::{Frame, Report};
 use super::model::{
-    Addressing, DensityFrom, Integrator, Render, SceneFile, SlicingAxis, StartPressure, Storage, Wall,
+    Addressing, DensityFrom, FluidSolver, Integrator, Render, SceneFile, SlicingAxis, StartPressure, Storage,
+    Wall,
 };
 use super::text::number;
 use super::walls::{self, Walls};
@@ -77,7 +78,7 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
             let fluid = Fluid::new(given, &frame, &speeds, &mut report);
             start(&file, &fluid, gravity, &bodies, &mut particles, &mut report);
             if all_sound {
-                walls = walls::sample(&file, &frame, &colliders, fluid.support, &mut report);
+                walls = walls::sample(&file, &frame, &colliders, fluid.wall_depth(), &mut report);
             }
             let time = time::of_fluid(&file.time, frames, &fluid, gravity.length(), &mut report);
             (Matter::Fluid(fluid), time)
@@ -175,7 +176,7 @@ fn start(
     report: &mut Report,
 ) {
     for (body, range) in file.bodies.iter().zip(bodies) {
-        if body.pressure == StartPressure::Hydrostatic {
+        if body.pressure == StartPressure::Hydrostatic && fluid.solver != FluidSolver::Dfsph {
             fluid.settle(&mut particles.position[range.clone()], gravity);
         }
     }
@@ -188,7 +189,8 @@ fn start(
             .density;
         *excess = fluid.excess_at(density, f64::from(*excess)) as f32;
     }
-    if fluid.density_from == DensityFrom::Summation {
+    // An incompressible fluid finds its pressures in its first steps, whatever it begins with.
+    if fluid.density_from == DensityFrom::Summation && fluid.solver != FluidSolver::Dfsph {
         for (i, body) in file.bodies.iter().enumerate() {
             if body.pressure == StartPressure::Hydrostatic {
                 report.problem(
@@ -265,9 +267,16 @@ fn neighbors(file: &SceneFile, frame: &Frame, report: &mut Report) -> Neighbors 
             "set neighbors.addressing to `sliced`, or leave regions out",
         );
     }
-    let neighbors = Neighbors::from(given);
+    let mut neighbors = Neighbors::from(given);
     let periodic = frame.sides.iter().flatten().any(|&side| side == Wall::Periodic);
-    if periodic && neighbors.skin <= 0.0 {
+    let every_step = file
+        .fluid
+        .as_ref()
+        .is_some_and(|fluid| fluid.solver == FluidSolver::Dfsph);
+    if every_step {
+        neighbors.skin = 0.0;
+    }
+    if periodic && neighbors.skin <= 0.0 && !every_step {
         report.problem(
             "neighbors.skin",
             "periodic sides need neighbor lists",
@@ -277,7 +286,7 @@ fn neighbors(file: &SceneFile, frame: &Frame, report: &mut Report) -> Neighbors 
             },
         );
     }
-    if file.time.adaptive && neighbors.skin <= 0.0 {
+    if file.time.adaptive && neighbors.skin <= 0.0 && !every_step {
         report.problem(
             "time.adaptive",
             "adaptive steps need neighbor lists, which neighbors.skin 0 and the storage `pool` leave out",

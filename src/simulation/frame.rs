@@ -6,11 +6,11 @@ use glam::DVec3;
 
 use crate::neighbors::Grid;
 use crate::neighbors::boxes::{VoxelBox, boxes};
-use crate::physics::layout::{Occupancy, Overflow, Sums};
+use crate::physics::layout::{Convergence, Occupancy, Overflow, Packed, Sums};
 use crate::plan::{Plan, has_buffer};
+use crate::scene::Scene;
 use crate::scene::column::{Column, Source};
 use crate::scene::model::NegativePressure;
-use crate::scene::{Dimensions, Scene};
 
 /// One moment of a run, on the host.
 #[derive(Debug, Clone, Default)]
@@ -29,6 +29,8 @@ pub struct Frame {
     pub particles: u32,
     /// How often a particle found its voxel of a pool full, summed over all searches since the last frame.
     pub overflow: u64,
+    /// How the loops of an iterative pressure solver went since the last frame.
+    pub convergence: Option<Convergence>,
     /// Particles farther away than the search follows; they find no neighbors.
     pub quarantined: u32,
     /// Steps since the last frame that searched neighbors anew; in the others earlier lists served.
@@ -208,17 +210,11 @@ pub(super) fn columns(scene: &Scene, plan: &Plan, raw: &BTreeMap<&str, &[u8]>) -
         }
     }
     let dimensions = scene.dimensions.count();
-    // Stored vectors have two components in 2D and four in 3D.
-    let stride = match scene.dimensions {
-        Dimensions::Two => 2,
-        Dimensions::Three => 4,
-    };
-    let position: Vec<f32> = bytemuck::pod_collect_to_vec(raw["position"]);
-    let velocity: Vec<f32> = bytemuck::pod_collect_to_vec(raw["velocity"]);
-    let vector = |from: &[f32], slot: usize| {
-        let mut v = [0.0f32; 3];
-        v[..dimensions].copy_from_slice(&from[slot * stride..slot * stride + dimensions]);
-        glam::Vec3::from_array(v)
+    let position: Vec<Packed> = bytemuck::pod_collect_to_vec(raw["position"]);
+    let velocity: Vec<Packed> = bytemuck::pod_collect_to_vec(raw["velocity"]);
+    let vector = |from: &[Packed], slot: usize| {
+        let [x, y, z, _] = from[slot];
+        glam::Vec3::new(x, y, z)
     };
     let global = |slot: usize| -> DVec3 { vector(&position, slot).as_dvec3() + scene.origin };
     let floats =

@@ -9,9 +9,8 @@ use crate::error::{Error, Result};
 use crate::gpu::readback;
 use crate::neighbors::layout::SearchState;
 use crate::neighbors::{self, Grid, Room};
-use crate::physics::layout::Clock;
+use crate::physics::layout::{Clock, Packed};
 use crate::plan::Plan;
-use crate::scene::Dimensions;
 
 impl Simulation {
     /// Looks whether the last search had room, and makes room until every submitted step is done.
@@ -136,15 +135,10 @@ impl Simulation {
     fn read_next_positions(&self) -> Result<Vec<Vec3>> {
         let buffer = self.buffers.get("next_position", "(host)")?;
         let count = self.count as usize;
-        Ok(match self.scene.dimensions {
-            Dimensions::Two => readback::read::<[f32; 2]>(&self.gpu, buffer, count)?
-                .into_iter()
-                .map(|[x, y]| Vec3::new(x, y, 0.0))
-                .collect(),
-            Dimensions::Three => readback::read::<[f32; 4]>(&self.gpu, buffer, count)?
-                .into_iter()
-                .map(|[x, y, z, _]| Vec3::new(x, y, z))
-                .collect(),
-        })
+        let stored = readback::read::<Packed>(&self.gpu, buffer, count)?;
+        Ok(stored
+            .into_iter()
+            .map(|[x, y, z, _]| Vec3::new(x, y, z))
+            .collect())
     }
 }

@@ -26,12 +26,14 @@ use crate::gpu::{Buffers, Gpu};
 use crate::neighbors::layout::SearchState;
 use crate::neighbors::{Grid, boxes, lists};
 use crate::physics::collider::offset_at;
-use crate::physics::layout::{Clock, Guard, Occupancy, Overflow, Pace, Parameters, Sums};
-use crate::physics::{self, dem, fluid};
+use crate::physics::layout::{
+    Clock, Convergence, Guard, Occupancy, Overflow, PACKED_BYTES, Pace, Parameters, Sums,
+};
+use crate::physics::{self, dem, dfsph, fluid};
 use crate::plan::Plan;
 use crate::render::Renderer;
 use crate::scene::{self, Action, Matter, Scene};
-use passes::{Kernels, Passes, Step};
+use passes::{Kernels, Passes, Step, recorded};
 use segments::{Segment, segments};
 
 /// Frames that may be on their way to the host while the device goes on.
@@ -144,7 +146,12 @@ impl Simulation {
 
     /// Times the passes of each frame's last step, and its own; this makes the host wait for every frame.
     pub fn set_timings(&mut self, on: bool) {
-        let passes = (self.passes.step.len() + self.passes.observe.len()) as u32;
+        let passes = [&self.passes.step, &self.passes.start, &self.passes.observe];
+        let passes = passes
+            .iter()
+            .map(|steps| recorded(steps).len())
+            .max()
+            .unwrap_or(0) as u32;
         self.timer = if on { Timer::new(&self.gpu, passes) } else { None };
     }
 
@@ -155,6 +162,7 @@ impl Simulation {
         let guard = Guard {
             lower,
             upper,
+            step: u32::MAX,
             ..Default::default()
         };
         buffers.write(gpu, "guard", 0, &[guard])?;
@@ -176,6 +184,9 @@ impl Simulation {
             buffers.write(gpu, "measure", 0, &[measure])?;
         }
         if let Matter::Fluid(given) = &scene.matter {
+            if buffers.contains("dfsph") {
+                buffers.write(gpu, "dfsph", 0, &[dfsph::settings(given)])?;
+            }
             buffers.write(gpu, "fluid", 0, &[fluid::coefficients(scene, given)])?;
             if buffers.contains("materials") {
                 buffers.write(gpu, "materials", 0, &fluid::materials(given))?;
@@ -205,7 +216,8 @@ impl Simulation {
             gravity: [self.gravity.x, self.gravity.y, self.gravity.z, 0.0],
             particle_count: self.count,
             time_step: time_step as f32,
-            ..Default::default()
+            free_count: self.free_particles(),
+            first_wall: self.scene.first_wall(),
         };
         self.buffers.write(&self.gpu, "parameters", 0, &[parameters])?;
         let dispatch = self.plan.dispatch(self.count, &self.gpu.limits);
@@ -361,7 +373,7 @@ impl Simulation {
     fn submit(&self, sequences: &[&[Step]]) -> Result<()> {
         let mut encoder = self.encoder("steps");
         let mut compute = encoder.begin_compute_pass(&Default::default());
-        for step in sequences.iter().copied().flatten() {
+        for step in sequences.iter().flat_map(|steps| recorded(steps)) {
             self.encode(step, &mut compute)?;
         }
         drop(compute);
@@ -374,8 +386,8 @@ impl Simulation {
         let Some(timer) = &self.timer else {
             return Ok(Vec::new());
         };
-        let passes: Result<Vec<_>> = steps
-            .iter()
+        let passes: Result<Vec<_>> = recorded(steps)
+            .into_iter()
             .map(|step| Ok((&step.pass, step.groups(&self.buffers)?)))
             .collect();
         timer.run(&self.gpu, &passes?)
@@ -448,6 +460,9 @@ impl Simulation {
                                 // The second field of `Overflow` counts from frame to frame.
                                 encoder.clear_buffer(buffer, 4, Some(4));
                             }
+                            if *name == "convergence" {
+                                encoder.clear_buffer(buffer, 0, None);
+                            }
                         }
                         Ok(_) => {}
                         Err(error) => missing = Some(error),
@@ -479,11 +494,14 @@ impl Simulation {
         if self.buffers.contains("overflow") {
             parts.push(("overflow", Overflow::LAYOUT.size as u64));
         }
+        if self.buffers.contains("convergence") {
+            parts.push(("convergence", Convergence::LAYOUT.size as u64));
+        }
         let wanted = &self.plan.wanted;
         if index.is_multiple_of(wanted.columns_every.max(1)) {
             for name in frame::sources(&wanted.columns) {
                 let bytes = match name {
-                    "position" | "velocity" => dem::packed_bytes(self.scene.dimensions),
+                    "position" | "velocity" => PACKED_BYTES,
                     _ => 4,
                 };
                 parts.push((name, bytes * u64::from(self.count)));
@@ -539,6 +557,9 @@ impl Simulation {
             adaptive,
             particles: pending.particles,
             overflow: u64::from(overflow.since_last_frame),
+            convergence: by_name
+                .get("convergence")
+                .map(|bytes| bytemuck::pod_read_unaligned(bytes)),
             quarantined: pending.quarantined,
             searches: pending.searches,
             growths: pending.growths,

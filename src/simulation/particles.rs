@@ -5,8 +5,8 @@ use glam::Vec3;
 use super::Simulation;
 use crate::error::Result;
 use crate::gpu::readback;
-use crate::physics::dem;
-use crate::scene::{Dimensions, Particles};
+use crate::physics::layout::{PACKED_BYTES, Packed, packed};
+use crate::scene::Particles;
 
 impl Simulation {
     /// Particles besides boundary particles.
@@ -44,17 +44,8 @@ impl Simulation {
             ("next_position", [&free.position, &walls.position]),
             ("next_velocity", [&free.velocity, &walls.velocity]),
         ] {
-            let values = values.into_iter().flatten();
-            match self.scene.dimensions {
-                Dimensions::Two => {
-                    let packed: Vec<[f32; 2]> = values.map(|v| [v.x, v.y]).collect();
-                    self.buffers.write(&self.gpu, name, first, &packed)?;
-                }
-                Dimensions::Three => {
-                    let packed: Vec<[f32; 4]> = values.map(|v| [v.x, v.y, v.z, 0.0]).collect();
-                    self.buffers.write(&self.gpu, name, first, &packed)?;
-                }
-            }
+            let packed: Vec<Packed> = values.into_iter().flatten().map(|&v| packed(v)).collect();
+            self.buffers.write(&self.gpu, name, first, &packed)?;
         }
         if self.buffers.contains("next_excess") {
             // What the others have by now stands in `fluid_state`.
@@ -69,7 +60,7 @@ impl Simulation {
             self.buffers.write(&self.gpu, "next_material", first, &material)?;
         }
         let mut encoder = self.encoder("add particles");
-        let vector = dem::packed_bytes(self.scene.dimensions) * u64::from(self.count);
+        let vector = PACKED_BYTES * u64::from(self.count);
         for (name, next, bytes) in [
             ("position", "next_position", vector),
             ("velocity", "next_velocity", vector),
@@ -104,17 +95,9 @@ impl Simulation {
         let ids: Vec<u32> = readback::read(&self.gpu, self.buffers.get("id", "(host)")?, count)?;
         let column = |name| -> Result<Vec<Vec3>> {
             let buffer = self.buffers.get(name, "(host)")?;
-            let stored: Vec<Vec3> = match self.scene.dimensions {
-                Dimensions::Two => readback::read::<[f32; 2]>(&self.gpu, buffer, count)?
-                    .into_iter()
-                    .map(|[x, y]| Vec3::new(x, y, 0.0))
-                    .collect(),
-                Dimensions::Three => readback::read::<[f32; 4]>(&self.gpu, buffer, count)?
-                    .into_iter()
-                    .map(|[x, y, z, _]| Vec3::new(x, y, z))
-                    .collect(),
-            };
-            Ok(self.by_id(&ids, stored))
+            let stored = readback::read::<Packed>(&self.gpu, buffer, count)?;
+            let vectors = stored.into_iter().map(|[x, y, z, _]| Vec3::new(x, y, z));
+            Ok(self.by_id(&ids, vectors.collect()))
         };
         Ok(Particles {
             position: column("position")?,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::error::Result;
 use crate::gpu::pass::INDEX_STRIDE;
-use crate::gpu::{Buffers, Gpu, Groups, Items, Kernel, Pass, PassPlan, Shader};
+use crate::gpu::{Buffers, Gpu, Groups, Items, Kernel, Pass, PassPlan, Repeat, Shader};
 use crate::plan::{Phase, Plan};
 
 /// Compiled entry points by shader and name; they outlive the buffers that passes bind.
@@ -14,6 +14,19 @@ pub type Kernels = BTreeMap<(String, String), Kernel>;
 pub struct Step {
     pub pass: Pass,
     pub items: Items,
+    pub repeat: Option<Repeat>,
+}
+
+/// The steps in the order in which they are recorded, loops as often as they may run.
+pub fn recorded(steps: &[Step]) -> Vec<&Step> {
+    let mut order = Vec::new();
+    let loops = steps.chunk_by(|a, b| a.repeat.is_some() && a.repeat == b.repeat);
+    for passes in loops {
+        for _ in 0..passes[0].repeat.map_or(1, |repeat| repeat.times) {
+            order.extend(passes);
+        }
+    }
+    order
 }
 
 impl Step {
@@ -61,15 +74,19 @@ impl Passes {
                     Items::MovingParticles if back => Items::ReturningParticles,
                     items => items,
                 };
-                Ok(Step { pass, items })
+                Ok(Step {
+                    pass,
+                    items,
+                    repeat: planned.repeat,
+                })
             };
             plan.in_phase(phase).map(step).collect()
         };
-        let lists = buffers.contains("list_state");
+        let back = buffers.contains("listed_position");
         Ok(Self {
             start: made(Phase::Start, false)?,
             step: made(Phase::Step, false)?,
-            step_back: if lists {
+            step_back: if back {
                 made(Phase::Step, true)?
             } else {
                 Vec::new()

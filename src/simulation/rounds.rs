@@ -7,6 +7,7 @@ use super::segments::Segment;
 use super::{STEPS_PER_SUBMISSION, Simulation};
 use crate::error::Result;
 use crate::neighbors::layout::ListState;
+use crate::neighbors::lists;
 
 /// Steps that lists serve before anything is known.
 pub(super) const USUALLY_SERVED: f64 = 8.0;
@@ -81,7 +82,10 @@ impl Simulation {
         }
         self.begin_steps()?;
         let most = STEPS_PER_SUBMISSION.min(steps);
-        let round = ((ROOM * self.served).ceil() as u64).min(most);
+        let round = match lists::every_step(&self.scene) {
+            true => 1,
+            false => ((ROOM * self.served).ceil() as u64).min(most),
+        };
         let mut one: Vec<&[Step]> = Vec::new();
         for step in 0..round {
             one.push(if step % 2 == 0 {

@@ -12,8 +12,7 @@ use crate::error::Result;
 use crate::gpu::readback;
 use crate::neighbors::Grid;
 use crate::neighbors::layout::ListState;
-use crate::physics::dem;
-use crate::physics::layout::{Clock, Overflow, Pace};
+use crate::physics::layout::{Clock, Overflow, PACKED_BYTES, Pace, Packed, packed};
 use crate::plan::Plan;
 use crate::scene::model::Axis;
 use crate::scene::{Action, Dimensions, Scene};
@@ -57,8 +56,8 @@ impl State {
             dimensions: scene.dimensions,
             origin: scene.origin,
             buffers: vec![
-                ("position".into(), pack(&local, scene.dimensions)),
-                ("velocity".into(), pack(&velocity, scene.dimensions)),
+                ("position".into(), pack(&local)),
+                ("velocity".into(), pack(&velocity)),
                 ("id".into(), bytemuck::cast_slice(&ids).to_vec()),
             ],
         }
@@ -78,13 +77,13 @@ impl State {
 
     /// A buffer of vectors, one a slot; z is 0 in 2D.
     pub fn vectors(&self, name: &str) -> Option<Vec<Vec3>> {
-        let numbers: Vec<f32> = bytemuck::pod_collect_to_vec(self.buffer(name)?);
-        let stride = dem::packed_bytes(self.dimensions) as usize / size_of::<f32>();
-        let vector = |v: &[f32]| match self.dimensions {
-            Dimensions::Two => Vec3::new(v[0], v[1], 0.0),
-            Dimensions::Three => Vec3::new(v[0], v[1], v[2]),
-        };
-        Some(numbers.chunks_exact(stride).map(vector).collect())
+        let stored: Vec<Packed> = bytemuck::pod_collect_to_vec(self.buffer(name)?);
+        Some(
+            stored
+                .into_iter()
+                .map(|[x, y, z, _]| Vec3::new(x, y, z))
+                .collect(),
+        )
     }
 
     /// Each slot's particle.
@@ -100,9 +99,8 @@ impl State {
                 .iter()
                 .map(|p| (p.as_dvec3() + moved).as_vec3())
                 .collect();
-            let packed = pack(&shifted, self.dimensions);
             let position = self.buffers.iter_mut().find(|(name, _)| name == "position");
-            position.expect("its vectors are there").1 = packed;
+            position.expect("its vectors are there").1 = pack(&shifted);
         }
         self.origin = origin;
         self
@@ -132,16 +130,13 @@ pub fn state_bytes(scene: &Scene, particles: u32) -> u64 {
     let fluid = scene
         .fluid()
         .map_or(0, |fluid| if fluid.materials.len() > 1 { 12 } else { 8 });
-    u64::from(particles) * (vectors * dem::packed_bytes(scene.dimensions) + 4 + fluid)
+    u64::from(particles) * (vectors * PACKED_BYTES + 4 + fluid)
 }
 
 /// Vectors as `common/vector.wgsl` packs them.
-fn pack(vectors: &[Vec3], dimensions: Dimensions) -> Vec<u8> {
-    let numbers: Vec<f32> = match dimensions {
-        Dimensions::Two => vectors.iter().flat_map(|v| [v.x, v.y]).collect(),
-        Dimensions::Three => vectors.iter().flat_map(|v| [v.x, v.y, v.z, 0.0]).collect(),
-    };
-    bytemuck::cast_slice(&numbers).to_vec()
+fn pack(vectors: &[Vec3]) -> Vec<u8> {
+    let stored: Vec<Packed> = vectors.iter().map(|&v| packed(v)).collect();
+    bytemuck::cast_slice(&stored).to_vec()
 }
 
 impl Simulation {
@@ -153,7 +148,7 @@ impl Simulation {
     /// The state after the frame made last; waits for the device. Receive every frame under way first
     /// ([`Simulation::finish_frame`]), so that all of them are known to be sound.
     pub fn save_state(&self) -> Result<State> {
-        let vector = dem::packed_bytes(self.scene.dimensions) as usize;
+        let vector = PACKED_BYTES as usize;
         let count = self.count as usize;
         let particles = PARTICLE_BUFFERS.map(|(name, _)| match name {
             "id" | "material" => (name, 4 * count),

@@ -27,7 +27,7 @@ fn move_grains(thread: Thread) {
 #if clamp_walls
     clamp_to_walls(&moved, &v);
 #end
-    watch(id[i], clock.step, x, &moved, &v);
+    watch(id[i], x, &moved, &v);
     leave(i, moved, v);
 #if adaptive_step
     note_extremes(a, length(v), 0.0);

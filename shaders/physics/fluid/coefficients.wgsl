@@ -23,7 +23,6 @@ struct Fluid {
     surface_tension: f32, // N/m
     wetting: f32, // cosine of the contact angle
     spacing: f32, // of particles at rest, m
-    first_wall: u32, // ids from here on are boundary particles
     closed: vec4f, // 1 along directions in which space does not repeat, else 0
 }
 

@@ -43,7 +43,7 @@ fn move_fluid(thread: Thread) {
 #if rim
     keep_within_rim(&moved, &v);
 #end
-    watch(id[i], clock.step, x, &moved, &v);
+    watch(id[i], x, &moved, &v);
     leave_fluid(i, moved, v, excess);
 #if adaptive_step
     note_fluid(forces.acceleration, v, excess);

@@ -1,10 +1,13 @@
 // Which particles are boundary particles. The file that imports this one has their `id`.
 #if boundary_particles
-#import physics/fluid/coefficients
-
+#import common/parameters
 
 fn is_wall(i: u32) -> bool {
-    return id[i] >= fluid.first_wall;
+#if separated
+    return i >= parameters.free_count;
+#else
+    return id[i] >= parameters.first_wall;
+#end
 }
 #else
 fn is_wall(i: u32) -> bool {

@@ -9,7 +9,7 @@
 #import common/pass_index
 #import storage/bitonic/pair
 #import storage/sorted/rearrange
-#import <addressing>
+#import storage/sorted/keys
 
 var<storage, read_write> sort_pairs: array<Pair>;
 
@@ -67,7 +67,7 @@ fn write_pairs(thread: Thread) {
     if i >= parameters.particle_count {
         return;
     }
-    sort_pairs[i] = pair_of(address(voxel_of(unpack(next_position[i]))), i);
+    sort_pairs[i] = pair_of(sort_key(i), i);
 }
 
 // Sorts each block by itself.

@@ -1,10 +1,8 @@
 // Begins storage `counting`: particles of each voxel.
-#import common/vector
 #import common/thread
 #import common/parameters
-#import <addressing>
+#import storage/sorted/keys
 
-var<storage, read> next_position: array<Packed>;
 // Counts, until the prefix sum.
 var<storage, read_write> voxel_start: array<atomic<u32>>;
 // Voxel of each particle, and how many of the voxel's particles came before it to the counter.
@@ -17,7 +15,7 @@ fn count_voxels(thread: Thread) {
     if i >= parameters.particle_count {
         return;
     }
-    let voxel = address(voxel_of(unpack(next_position[i])));
+    let voxel = sort_key(i);
     particle_voxel[i] = voxel;
     arrival[i] = atomicAdd(&voxel_start[voxel], 1u);
 }

@@ -9,8 +9,27 @@
 #import <storage>
 
 var<storage, read_write> neighbor_list: array<u32>;
-var<storage, read_write> list_length: array<u32>;
+#if !lists_every_step
 var<storage, read_write> listed_position: array<Packed>;
+#end
+
+// Lists those of a range that are near y, behind `count` others; returns how many they are then.
+fn list_range(i: u32, wall: bool, y: Vector, range: vec2u, count: u32) -> u32 {
+    var found = count;
+    let first_slot = i * (grid.list_capacity + 1u) + 1u;
+    for (var slot = range.x; slot < range.y; slot++) {
+        let j = candidate(slot);
+        // Boundary particles ask for the fluid only.
+        let wanted = j != i && !(wall && is_wall(j));
+        if wanted && within(unpack(position[j]) - y, grid.list_reach) {
+            if found < grid.list_capacity {
+                neighbor_list[first_slot + found] = j;
+            }
+            found += 1u;
+        }
+    }
+    return found;
+}
 
 @compute @workgroup_size(GROUP_SIZE)
 fn list_candidates(thread: Thread) {
@@ -19,9 +38,14 @@ fn list_candidates(thread: Thread) {
         return;
     }
     let x = unpack(position[i]);
-    // Boundary particles ask for the fluid only.
     let wall = is_wall(i);
-    let first_slot = i * grid.list_capacity;
+#if lists_every_step
+    if wall {
+        return;
+    }
+#end
+    let row = i * (grid.list_capacity + 1u);
+    let second = second_row();
     var count = 0u;
     for (var number = 0u; number < IMAGES; number++) {
         var y: Vector;
@@ -29,22 +53,20 @@ fn list_candidates(thread: Thread) {
             continue;
         }
         let home = voxel_of(y);
-        for (var k = 0u; k < RANGES; k++) {
-            let range = candidate_range(home, k);
-            for (var slot = range.x; slot < range.y; slot++) {
-                let j = candidate(slot);
-                let wanted = j != i && !(wall && is_wall(j));
-                if wanted && within(unpack(position[j]) - y, grid.list_reach) {
-                    if count < grid.list_capacity {
-                        neighbor_list[first_slot + count] = j;
-                    }
-                    count += 1u;
-                }
+        for (var k = 0u; k < RANGE_PAIRS; k++) {
+            let pair = range_pair(home, k, second);
+            count = list_range(i, wall, y, pair.xy, count);
+#if separated
+            if !wall {
+                count = list_range(i, false, y, pair.zw, count);
             }
+#end
         }
     }
+#if !lists_every_step
     listed_position[i] = pack(x);
-    list_length[i] = min(count, grid.list_capacity);
+#end
+    neighbor_list[row] = min(count, grid.list_capacity);
     if count > atomicLoad(&list_state.longest) {
         atomicMax(&list_state.longest, count);
     }

@@ -56,7 +56,11 @@ fn has_moved() -> bool {
 }
 
 fn decide_search() {
+#if lists_every_step
+    let due = true;
+#else
     let due = atomicLoad(&list_state.moved) != 0u || frame_ends();
+#end
     let returned = dispatch[DISPATCH_RETURNING].x != 0u;
     let goes_on = !due && steps_are_left();
     atomicStore(&list_state.moved, 0u);

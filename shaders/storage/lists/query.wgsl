@@ -2,9 +2,8 @@
 #import common/vector
 #import cells/grid
 
-// grid.list_capacity entries a particle.
+// A row per particle: how many neighbors it has, then they, with room for grid.list_capacity.
 var<storage, read> neighbor_list: array<u32>;
-var<storage, read> list_length: array<u32>;
 
 const RANGES: u32 = 1u;
 
@@ -14,8 +13,8 @@ fn around(i: u32, x: Vector) -> u32 {
 
 // Slots [first, last) of a particle's list.
 fn candidate_range(home: u32, k: u32) -> vec2u {
-    let first_slot = home * grid.list_capacity;
-    return vec2u(first_slot, first_slot + list_length[home]);
+    let row = home * (grid.list_capacity + 1u);
+    return vec2u(row + 1u, row + 1u + neighbor_list[row]);
 }
 
 // The particle in a slot.

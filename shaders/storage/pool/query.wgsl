@@ -19,6 +19,17 @@ fn candidate_range(home: Coordinate, k: u32) -> vec2u {
     return vec2u(slot, slot + min(voxel_count[voxel], SLOTS));
 }
 
+// For lists; boundary particles stand among the others.
+const RANGE_PAIRS: u32 = RANGES;
+
+fn second_row() -> u32 {
+    return 0u;
+}
+
+fn range_pair(home: Coordinate, k: u32, second: u32) -> vec4u {
+    return vec4u(candidate_range(home, k), 0u, 0u);
+}
+
 // The particle in a slot.
 fn candidate(slot: u32) -> u32 {
     return index_pool[slot];

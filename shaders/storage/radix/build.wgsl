@@ -5,7 +5,7 @@
 #import common/pass_index
 #import storage/radix/runs
 #import storage/sorted/rearrange
-#import <addressing>
+#import storage/sorted/keys
 
 // Pairs of voxel and particle, twice: a digit's pass reads one half and writes the other.
 var<storage, read_write> sort_pairs: array<vec2u>;
@@ -30,7 +30,7 @@ fn write_pairs(thread: Thread) {
     if i >= parameters.particle_count {
         return;
     }
-    sort_pairs[i] = vec2u(address(voxel_of(unpack(next_position[i]))), i);
+    sort_pairs[i] = vec2u(sort_key(i), i);
 }
 
 @compute @workgroup_size(GROUP_SIZE)

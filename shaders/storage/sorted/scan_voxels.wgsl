@@ -1,13 +1,14 @@
 // Prefix sum of the voxels' particle counts, in place: the first particle of each voxel, empty ones included.
 #import storage/scan
+#import storage/sorted/entries
 #import <addressing>
 
 // Counts before, first particles after.
 var<storage, read_write> voxel_start: array<u32>;
 
-// Behind the voxels stands the quarantine, and one entry more: its count is zero, and its start is the particle count.
+// The last entry's count is zero, and its start is the particle count.
 fn scan_items() -> u32 {
-    return voxel_total() + 2u;
+    return entries(voxel_total());
 }
 
 fn scan_value(voxel: u32) -> u32 {

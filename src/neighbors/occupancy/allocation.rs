@@ -71,6 +71,7 @@ impl Allocation {
             passes: Vec::new(),
             flags: Vec::new(),
             constants: Vec::new(),
+            separated: false,
             notes: Vec::new(),
         };
         (storage::row(neighbors.storage).plan)(&mut search, particles, neighbors);

@@ -36,6 +36,22 @@ pub struct Fluid {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-9, max = 1e9))]
     pub max_speed: Option<f64>,
+    /// Of `dfsph`: mean of max(ρ/ρ₀ − 1, 0) at which a step's loop of density stops.
+    #[serde(default = "density_error")]
+    #[schemars(range(min = 1e-6, max = 0.1))]
+    pub max_density_error: f64,
+    /// Of `dfsph`: mean of what a step's divergence adds to ρ/ρ₀ at which its loop stops.
+    #[serde(default = "divergence_error")]
+    #[schemars(range(min = 1e-6, max = 0.1))]
+    pub max_divergence_error: f64,
+    /// Of `dfsph`: most iterations of each loop in a step. Steps that stop there are counted in `stats.jsonl`.
+    #[serde(default = "iterations")]
+    #[schemars(range(min = 3, max = 1000))]
+    pub max_iterations: u32,
+    /// Of `dfsph`: share of the spacing that the fastest particle moves in a step.
+    #[serde(default = "courant_number")]
+    #[schemars(range(min = 0.01, max = 1.0))]
+    pub courant_number: f64,
     /// Exponent γ of the equation of state p = (ρ₀c²/γ) ((ρ/ρ₀)^γ − 1) (Tait; Monaghan 1994); 7 for `wcsph` and 1 for
     /// `sph` when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -101,6 +117,22 @@ fn water() -> f64 {
     1000.0
 }
 
+fn density_error() -> f64 {
+    1e-4
+}
+
+fn divergence_error() -> f64 {
+    1e-4
+}
+
+fn iterations() -> u32 {
+    50
+}
+
+fn courant_number() -> f64 {
+    0.4
+}
+
 /// One of several fluids.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -127,6 +159,8 @@ pub enum FluidSolver {
     /// Weakly compressible SPH (Monaghan 1994; Rojas 2013).
     #[default]
     Wcsph,
+    /// Divergence-free, incompressible SPH (Bender and Koschier 2015, 2017): long adaptive steps, pressures by iteration.
+    Dfsph,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

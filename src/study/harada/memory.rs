@@ -55,7 +55,7 @@ impl<'a> Memory<'a> {
             ..self.scene.clone()
         };
         let lists = if lists::wanted(&scene) {
-            lists::buffers(&scene, lists::usual_length(&scene)).to_vec()
+            lists::buffers(&scene, lists::usual_length(&scene))
         } else {
             Vec::new()
         };

@@ -1,0 +1,28 @@
+// The loop that makes velocities free of divergence, by pressures that only push (Bender and Koschier 2015, Algorithm 2).
+// Where the fluid is clearly thinner than at rest, it may be pressed together; so a free surface feels no pressure.
+#flag moves
+#import physics/dfsph/solve
+
+var<storage, read> next_velocity: array<Packed>;
+var<storage, read_write> pressure_point: array<Packed>;
+
+fn velocity_of(j: u32) -> Vector {
+    return unpack(next_velocity[j]);
+}
+
+// Fluid that is thinner by less than this share counts as full: it would fall into every gap of a hundredth and hit its
+// neighbors, over and over.
+const SLACK: f32 = 0.01;
+
+@compute @workgroup_size(GROUP_SIZE)
+fn find_divergence(thread: Thread) {
+    let i = item_index(thread);
+    if i >= loop_count() || is_wall(i) {
+        return;
+    }
+    let x = unpack(position[i]);
+    let dt = time_step();
+    let rate = compression_rate(i, x) + min(own[i].excess + SLACK, 0.0) / dt;
+    pressure_point[i] = pack_with(x, iterate(i, rate));
+    add_error(thread, rate * dt);
+}

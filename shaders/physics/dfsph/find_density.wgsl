@@ -1,0 +1,42 @@
+// Density by summation, and how density answers to pressure: the diagonal of the linear system (Bender and Koschier 2015,
+// Eq. 9; 2017, Eq. 11).
+#flag writes_state
+#import common/thread
+#import physics/fluid/pairs
+#import physics/fluid/state
+#import physics/dfsph/loop
+#import physics/dfsph/own
+
+// Below this diagonal, in units of 1/spacing², a particle is alone, and pressure has nothing to act on.
+const LONELY: f32 = 1e-4;
+
+@compute @workgroup_size(GROUP_SIZE)
+fn find_density(thread: Thread) {
+    let i = item_index(thread);
+    if i >= loop_count() || is_wall(i) {
+        return;
+    }
+    let x = unpack(position[i]);
+    var sum = kernel(0.0);
+    var slopes = Vector(0.0); // 1/m
+    var squares = 0.0; // of those that pressure can move, 1/m²
+    let home = around(i, x);
+    for (var k = 0u; k < RANGES; k++) {
+        let range = candidate_range(home, k);
+        for (var slot = range.x; slot < range.y; slot++) {
+            let j = candidate(slot);
+            let s = toward(x, j);
+            let r = length(s);
+            sum += kernel(r);
+            let slope = (-fluid.volume * kernel_slope(r)) * s;
+            slopes += slope;
+            squares += select(dot(slope, slope), 0.0, is_wall(j));
+        }
+    }
+    let diagonal = dot(slopes, slopes) + squares;
+    let excess = fluid.volume * sum - 1.0;
+    let pressure = velocity[i].w;
+    let response = select(fluid.density / diagonal, 0.0, diagonal * fluid.spacing * fluid.spacing < LONELY);
+    own[i] = Own(excess, 0.0, response, 0.0);
+    fluid_state[i] = vec2f(excess, pressure);
+}

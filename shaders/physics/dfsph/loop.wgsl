@@ -1,0 +1,47 @@
+// The loops of `dfsph`: how far each has come, and the threads that its passes run. A loop is recorded as often as it may
+// run; once it has converged, the device lets the rest of its passes run on nothing.
+#import common/vector
+#import common/parameters
+
+// Figures since the last frame; the host takes and clears them.
+struct Convergence {
+    steps: u32,
+    density_iterations: u32, // summed over the steps
+    most_density_iterations: u32, // of one step
+    density_unconverged: u32, // steps that stopped at the largest number of iterations
+    density_error: f32, // what the worst step stopped at, mean of max(ρ/ρ₀ − 1, 0)
+    divergence_iterations: u32,
+    most_divergence_iterations: u32,
+    divergence_unconverged: u32,
+    divergence_error: f32, // the same, of what a step's divergence adds to ρ/ρ₀
+    iteration: u32, // of the loop that runs now
+}
+
+// What the solver stops at (physics::dfsph).
+struct Dfsph {
+    density_error: f32,
+    divergence_error: f32,
+    density_iterations: u32, // at most
+    divergence_iterations: u32,
+    relaxation: f32, // of Jacobi's iteration
+    momentum: f32, // share of an iteration's step that the next one goes on with
+    warm_start: f32, // share of the last step's pressures that a step begins with
+}
+
+var<uniform> dfsph: Dfsph;
+
+// Errors are added as whole numbers of 2⁻²⁴; those of a workgroup must stay below 2³².
+const ERROR_UNITS: f32 = 16777216.0;
+const LARGEST_ERROR: f32 = 256.0 / f32(GROUP_SIZE + 1u);
+
+const DENSITY_LOOP: u32 = 0u;
+const DIVERGENCE_LOOP: u32 = 1u;
+
+// Particles that the loops run over.
+fn loop_count() -> u32 {
+#if separated
+    return parameters.free_count;
+#else
+    return parameters.particle_count;
+#end
+}

@@ -1,0 +1,55 @@
+// Positions at the end of a step.
+#flag moves
+#import common/thread
+#import common/parameters
+#import physics/time_step
+#import physics/guard
+#import physics/fluid/walls
+#import cells/images
+#if faces
+#import physics/fluid/coefficients
+#import physics/fluid/rim
+#end
+#if adaptive_step
+#import physics/extremes
+#end
+
+var<storage, read> position: array<Packed>;
+var<storage, read> id: array<u32>;
+var<storage, read_write> next_position: array<Packed>; // before, how the particle goes, m/s
+var<storage, read_write> next_velocity: array<Packed>;
+var<storage, read_write> next_id: array<u32>;
+
+@compute @workgroup_size(GROUP_SIZE)
+fn move_fluid(thread: Thread) {
+    let i = item_index(thread);
+    if i >= parameters.particle_count || is_wall(i) {
+        return;
+    }
+    let x = unpack(position[i]);
+    let pressure = next_velocity[i].w;
+    var v = unpack(next_velocity[i]);
+    var moved = wrapped(x + time_step() * unpack(next_position[i]));
+#if faces
+    // One layer of boundary particles holds the fluid; what is thrown against it all the same stops at the wall's face.
+    let margin = 0.4 * fluid.spacing; // of the half spacing that `rim` lies inside
+    let kept = clamp(moved, first(rim.lower) - margin, first(rim.upper) + margin);
+#if rim
+    let outside = any(moved < first(rim.open_lower)) || any(moved > first(rim.open_upper));
+#else
+    let outside = false;
+#end
+    v = select(select(Vector(0.0), v, kept == moved), v, outside);
+    moved = select(kept, moved, outside);
+#if rim
+    keep_within_rim(&moved, &v);
+#end
+#end
+    watch(id[i], x, &moved, &v);
+    next_position[i] = pack(moved);
+    next_velocity[i] = pack_with(v, pressure);
+    next_id[i] = id[i];
+#if adaptive_step
+    note_extremes(first(parameters.gravity), length(v), 0.0);
+#end
+}

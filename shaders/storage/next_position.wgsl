@@ -1,0 +1,4 @@
+// Where a step left the particles for the search, m.
+#import common/vector
+
+var<storage, read> next_position: array<Packed>;

@@ -1,0 +1,157 @@
+//! The incompressible solver `dfsph`: its loops converge on the device, water comes to rest, and nothing depends on the grid.
+
+mod common;
+
+use glam::Vec3;
+use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
+use sliceflow::physics::layout::Convergence;
+use sliceflow::plan::Wanted;
+use sliceflow::scene::Scene;
+use sliceflow::simulation::{Frame, Simulation};
+
+fn dfsph(dimensions: usize, overrides: &[&str]) -> Scene {
+    common::fluid(dimensions, &[&["fluid.solver=dfsph"], overrides].concat())
+}
+
+/// Frames 0 to `last` with figures over all particles.
+fn frames(scene: &Scene, last: u32) -> (Simulation, Vec<Frame>) {
+    let wanted = Wanted {
+        statistics: true,
+        ..Default::default()
+    };
+    let mut simulation = common::simulate(scene, &wanted);
+    let mut frames = Vec::new();
+    for _ in 0..=last {
+        frames.extend(simulation.next_frame().expect("a frame"));
+    }
+    while let Some(frame) = simulation.finish_frame().expect("a frame") {
+        frames.push(frame);
+    }
+    (simulation, frames)
+}
+
+fn convergence(frame: &Frame) -> Convergence {
+    frame.convergence.expect("figures of the loops")
+}
+
+#[test]
+fn water_that_fills_a_tank_comes_to_rest_at_its_level() {
+    let scene = dfsph(
+        2,
+        &[
+            "colliders=[]",
+            "bodies[0].shape.max=[1,0.4]",
+            "time={\"duration\":6,\"fps\":2}",
+            "fluid.viscosity=1",
+        ],
+    );
+    let (simulation, frames) = frames(&scene, 12);
+    let last = frames.last().expect("frames");
+    let statistics = last.statistics.expect("statistics");
+    // √(gH) is 0.63 m/s.
+    assert!(statistics.max_speed < 0.05, "{}", statistics.max_speed);
+    let [_, most] = statistics.density_error.expect("a fluid's");
+    assert!(
+        most < 0.5,
+        "surface particles lack neighbors, none is pressed together: {most}"
+    );
+    let position = simulation.particles().expect("particles").position;
+    let place = |p: &Vec3| p.as_dvec3() + scene.origin;
+    let height = position.iter().map(|p| place(p).y).sum::<f64>() / position.len() as f64;
+    assert!((height - 0.2).abs() < 0.02 * 0.4, "mean height {height} m");
+    assert!(
+        position
+            .iter()
+            .map(place)
+            .all(|p| p.y > 0.0 && p.x > 0.0 && p.x < 1.0)
+    );
+    let loops = convergence(last);
+    assert_eq!((loops.density_unconverged, loops.divergence_unconverged), (0, 0));
+}
+
+#[test]
+fn loops_end_on_the_device_when_they_have_converged() {
+    let scene = dfsph(3, &[]);
+    let (_, frames) = frames(&scene, 2);
+    let loops = convergence(&frames[2]);
+    let most = scene.fluid().expect("a fluid").max_iterations;
+    assert!(loops.steps > 0);
+    for (iterations, longest, error, allowed) in [
+        (
+            loops.density_iterations,
+            loops.most_density_iterations,
+            loops.density_error,
+            1e-4,
+        ),
+        (
+            loops.divergence_iterations,
+            loops.most_divergence_iterations,
+            loops.divergence_error,
+            1e-4,
+        ),
+    ] {
+        assert!(iterations >= loops.steps, "at least one iteration per step");
+        assert!(longest < most, "{longest} of {most}");
+        assert!(error <= allowed, "{error}");
+    }
+
+    // A loop that may not go on as long as it needs says so.
+    let short = dfsph(3, &["fluid.max_iterations=3", "fluid.max_divergence_error=1e-6"]);
+    let (_, frames) = self::frames(&short, 2);
+    let loops = convergence(&frames[2]);
+    assert!(loops.divergence_unconverged > 0 && loops.most_divergence_iterations == 3);
+}
+
+#[test]
+fn a_block_in_free_flight_keeps_its_momentum() {
+    for dimensions in [2, 3] {
+        let mut scene = dfsph(
+            dimensions,
+            &[
+                "colliders=[]",
+                "domain.walls=open",
+                "gravity=null",
+                "fluid.viscosity=0.1",
+            ],
+        );
+        let velocity = Vec3::new(0.5, 0.3, 0.0);
+        for (k, v) in scene.particles.velocity.iter_mut().enumerate() {
+            // Thrown about, so that particles meet.
+            *v = velocity + 0.2 * Vec3::new((1.7 * k as f32).sin(), (2.3 * k as f32).cos(), 0.0);
+        }
+        let mean = |v: &[Vec3]| v.iter().map(|v| v.as_dvec3()).sum::<glam::DVec3>() / v.len() as f64;
+        let gravity = scene.gravity.as_dvec3();
+        let before = mean(&scene.particles.velocity);
+        let (simulation, frames) = frames(&scene, 2);
+        let time = frames[2].time;
+        let after = mean(&simulation.particles().expect("particles").velocity);
+        let off = (after - before - gravity * time).length();
+        assert!(
+            off < 1e-5,
+            "{dimensions}D: momentum is off by {off} m/s per particle"
+        );
+    }
+}
+
+#[test]
+fn every_grid_gives_the_same_flow() {
+    let place = |grid: &[&str]| {
+        let scene = dfsph(2, grid);
+        frames(&scene, 1).0.particles().expect("particles").position
+    };
+    let expected = place(&[]);
+    let addressings = ADDRESSINGS.iter().map(|row| (row.name, "counting"));
+    let storages = STORAGES.iter().map(|row| ("sliced", row.name));
+    for (addressing, storage) in addressings.chain(storages) {
+        let choice = [
+            format!("neighbors.addressing={addressing}"),
+            format!("neighbors.storage={storage}"),
+            "neighbors.slots=64".to_owned(),
+        ];
+        let found = place(&choice.each_ref().map(String::as_str));
+        let apart = |(a, b): (&Vec3, &Vec3)| a.distance(*b);
+        let farthest = found.iter().zip(&expected).map(apart).fold(0.0, f32::max);
+        // Sums in another order, over some steps.
+        assert!(farthest < 2e-4, "{addressing}-{storage}: {farthest} m");
+    }
+}
