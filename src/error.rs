@@ -105,6 +105,14 @@ impl Error {
         }
     }
 
+    /// For what this build was made without: `what` says what is missing.
+    pub fn absent(what: impl Into<String>) -> Self {
+        Self::usage(
+            what,
+            "build all of Sliceflow with `cargo build --release`, or start it with ./sliceflow, which builds what it needs",
+        )
+    }
+
     pub fn device(what: impl Into<String>, help: impl Into<String>) -> Self {
         Self::Device {
             what: what.into(),

@@ -40,6 +40,12 @@
 //! `shaders/` mirrors this: `shaders/common/`, `shaders/cells/` (addressing), `shaders/storage/`, `shaders/physics/`,
 //! `shaders/render/`.
 //!
+//! # Cargo features
+//!
+//! All are on by default: `cli` (the program), `plots` (charts), `rerun` (recordings for the Rerun viewer), `study`
+//! (`src/study/`), `surface` (meshes around particles), `video` (encoders). Without any there is the library: scenes,
+//! plans, simulation, pictures, particle files. What is asked of a build that lacks it is refused with an error.
+//!
 //! # One particle's trip from scene file to pixel
 //!
 //! `src/scene/shapes.rs` places it, relative to the scene's origin, which is subtracted in f64. The simulation writes
@@ -63,6 +69,7 @@
 //! - a color map: one row in `src/scene/color_maps.rs`;
 //! - a case with a known truth: one file and one row in `src/study/accuracy/cases/`, its data in `assets/reference/`.
 
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod error;
 pub mod gpu;
@@ -73,4 +80,5 @@ pub mod plan;
 pub mod render;
 pub mod scene;
 pub mod simulation;
+#[cfg(feature = "study")]
 pub mod study;

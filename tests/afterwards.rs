@@ -1,6 +1,6 @@
 //! What one does with runs afterwards: draw them again, and compare them.
 
-#![cfg(unix)]
+#![cfg(all(unix, feature = "cli"))]
 
 #[path = "common/place.rs"]
 mod place;

@@ -1,5 +1,7 @@
 //! The program as a user meets it: arguments, messages, exit status, files.
 
+#![cfg(all(feature = "cli", feature = "plots", feature = "surface", feature = "video"))]
+
 use std::fs;
 use std::path::Path;
 

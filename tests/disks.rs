@@ -1,6 +1,6 @@
 //! What disks do to runs: they fill up, they vanish, they may not be written.
 
-#![cfg(unix)]
+#![cfg(all(unix, feature = "cli"))]
 
 #[path = "common/place.rs"]
 mod place;

@@ -1,5 +1,7 @@
 //! All pairs of bare points, and the command that finds them in files.
 
+#![cfg(feature = "cli")]
+
 mod common;
 
 use std::fs;

@@ -3,6 +3,8 @@
 //! Those are Python packages (tests/readers/requirements.txt) in the target folder, where `./sliceflow test` installs
 //! them.
 
+#![cfg(feature = "cli")]
+
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -1,6 +1,6 @@
 //! `sliceflow resume` as a user meets it: whatever ended a run, it comes to the bytes of one that nothing ended.
 
-#![cfg(unix)]
+#![cfg(all(unix, feature = "cli"))]
 
 #[path = "common/place.rs"]
 mod place;

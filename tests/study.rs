@@ -1,5 +1,7 @@
 //! Studies write a page, its pictures and the same figures as JSON. Times are not asserted.
 
+#![cfg(all(feature = "cli", feature = "study"))]
+
 use std::path::Path;
 
 use assert_cmd::Command;

@@ -1,5 +1,7 @@
 //! The command line: one file a command. Data goes to standard output, everything else to standard error.
 
+#[cfg(not(all(feature = "study", feature = "surface")))]
+mod absent;
 mod checkpoint_args;
 mod device_args;
 mod devices;
@@ -20,10 +22,16 @@ mod scenes;
 mod schema;
 mod sitting_args;
 mod stdout;
+#[cfg(feature = "study")]
 mod study;
+#[cfg(feature = "surface")]
 mod surface;
 mod table;
 
+#[cfg(not(feature = "study"))]
+use absent::study;
+#[cfg(not(feature = "surface"))]
+use absent::surface;
 use clap::{Parser, Subcommand};
 
 use crate::error::Result;

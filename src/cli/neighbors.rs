@@ -12,13 +12,13 @@ use super::table::Align::{Left, Right};
 use super::table::Table;
 use super::{grid, stdout};
 use crate::error::{Error, Result};
+use crate::gpu::timing::median;
 use crate::gpu::{Gpu, Variant, device};
 use crate::neighbors;
 use crate::output::text::{bytes, count};
 use crate::plan::{Plan, Wanted};
 use crate::scene::{Dimensions, Neighbors, Scene, particle_file};
 use crate::simulation::{NeighborLists, Simulation};
-use crate::study::measure::median;
 use files::Files;
 
 /// Finds all pairs of points nearer than a radius

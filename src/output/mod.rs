@@ -1,5 +1,6 @@
 //! What a run leaves behind. Each [`Sink`] turns finished frames into files; [`run()`] drives them.
 
+mod bar;
 mod checkpoint;
 mod clock;
 pub mod compare;
@@ -14,6 +15,7 @@ mod manifest;
 mod memory;
 pub mod npy;
 mod particles;
+#[cfg(feature = "plots")]
 pub mod plot;
 mod png;
 pub mod progress;
@@ -25,9 +27,14 @@ mod resume;
 mod rewind;
 mod run;
 mod statistics;
+#[cfg(feature = "surface")]
 pub mod surface;
 mod tally;
 pub mod text;
+#[cfg(feature = "video")]
+mod video;
+#[cfg(not(feature = "video"))]
+#[path = "video/absent.rs"]
 mod video;
 mod workers;
 

@@ -3,14 +3,15 @@
 use std::io::{IsTerminal as _, Write as _, stderr};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
+use super::bar::Bar;
 use super::tally::Tally;
 use super::text::{seconds, short};
 use crate::simulation::frame::Frame;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Style {
     /// A bar; lines where standard error is not a terminal.
     #[default]
@@ -21,6 +22,8 @@ pub enum Style {
     Json,
 }
 
+const TEMPLATE: &str = "{bar:30} {pos}/{len} frames  {wide_msg}";
+
 /// Lines come no faster than this, so that logs stay short.
 const LINE_PAUSE: Duration = Duration::from_secs(5);
 
@@ -30,7 +33,7 @@ pub struct Progress {
 }
 
 enum Show {
-    Bar(ProgressBar),
+    Bar(Bar),
     Plain { last: Option<Instant> },
     Json,
 }
@@ -39,7 +42,9 @@ impl Progress {
     pub fn new(style: Style, frames: u32) -> Self {
         let show = match style {
             Style::Json => Show::Json,
-            Style::Bar if stderr().is_terminal() => Show::Bar(bar(frames)),
+            Style::Bar if cfg!(feature = "cli") && stderr().is_terminal() => {
+                Show::Bar(Bar::new(TEMPLATE, frames))
+            }
             Style::Bar | Style::Plain => Show::Plain { last: None },
         };
         Self { show }
@@ -60,8 +65,8 @@ impl Progress {
         let rate = short(tally.particle_steps_per_s);
         match &mut self.show {
             Show::Bar(bar) => {
-                bar.set_position(u64::from(tally.frames_done));
-                bar.set_message(format!("{rate} particle steps/s, {} left", seconds(remaining_s)));
+                bar.set(tally.frames_done);
+                bar.message(format!("{rate} particle steps/s, {} left", seconds(remaining_s)));
             }
             Show::Plain { last } => {
                 let is_last = tally.frames_done == tally.frames;
@@ -102,7 +107,7 @@ impl Progress {
     /// Takes the bar away.
     pub fn clear(&self) {
         if let Show::Bar(bar) = &self.show {
-            bar.finish_and_clear();
+            bar.clear();
         }
     }
 
@@ -113,13 +118,6 @@ impl Progress {
             Show::Json => event(json!({ "event": kind, "message": text })),
         }
     }
-}
-
-fn bar(frames: u32) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} frames  {wide_msg}")
-        .expect("a template that stands above")
-        .progress_chars("━╸ ");
-    ProgressBar::new(u64::from(frames)).with_style(style)
 }
 
 fn event(value: Value) {

@@ -5,6 +5,7 @@ use std::time::Instant;
 use super::bench::{Bench, first_line};
 use crate::error::Result;
 use crate::gpu::Gpu;
+use crate::gpu::timing::median;
 use crate::plan::{Plan, Wanted};
 use crate::scene::Scene;
 use crate::scene::model::View;
@@ -246,16 +247,6 @@ impl Measured {
             step_ms: median(self.step_ms),
             passes,
         }
-    }
-}
-
-/// The middle value, NaN of nothing.
-pub fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    match values.len() {
-        0 => f64::NAN,
-        n if n % 2 == 1 => values[n / 2],
-        n => (values[n / 2 - 1] + values[n / 2]) / 2.0,
     }
 }
 

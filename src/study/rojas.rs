@@ -6,10 +6,10 @@ use std::time::Instant;
 use serde_json::{Value, json};
 
 use super::bench::{Bench, first_line, progress};
-use super::measure::median;
 use super::page::{Cell, Page, Table};
 use super::{Settings, Size, scenes};
 use crate::error::Result;
+use crate::gpu::timing::median;
 use crate::output::plot::Plot;
 use crate::output::text::count;
 use crate::plan::Wanted;

@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use image::RgbaImage;
 
-use super::{Found, charts, json, tables};
+#[cfg(feature = "plots")]
+use super::charts;
+use super::{Found, json, tables};
 use crate::cli::grid;
 use crate::error::{Error, Result};
 use crate::output::{encode_png, write_file};
@@ -67,9 +69,12 @@ impl Files {
         let json = format!("{:#}\n", json::report(found));
         write_file(&at(JSON), json.as_bytes())?;
         write_file(&at(TABLES), tables::report(found, true).to_markdown().as_bytes())?;
-        charts::slice_profile(found).save(&at(PROFILE))?;
-        if !found.subject.over_time.is_empty() {
-            charts::over_time(found).save(&at(OVER_TIME))?;
+        #[cfg(feature = "plots")]
+        {
+            charts::slice_profile(found).save(&at(PROFILE))?;
+            if !found.subject.over_time.is_empty() {
+                charts::over_time(found).save(&at(OVER_TIME))?;
+            }
         }
         let picture = |name: &str, image: &Option<RgbaImage>| match image {
             Some(image) => write_file(&at(name), &encode_png(image.clone(), &at(name))?),

@@ -1,5 +1,6 @@
 //! `sliceflow inspect`
 
+#[cfg(feature = "plots")]
 mod charts;
 mod files;
 mod json;
@@ -75,6 +76,11 @@ struct Found {
 pub fn main(args: &Args) -> Result<()> {
     let scene = subject::load(args)?;
     let grids = scenes_through(&scene, &args.grid)?;
+    if args.out.is_some() && cfg!(not(feature = "plots")) {
+        return Err(Error::absent(
+            "this build draws no charts, which `inspect --out` writes",
+        ));
+    }
     let files = match &args.out {
         Some(folder) => Some(Files::open(folder, &grids, args.every.is_some(), args.force)?),
         None => None,

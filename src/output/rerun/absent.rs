@@ -10,13 +10,10 @@ use crate::scene::Scene;
 impl Settings {
     pub fn check(&self, _scene: &Scene, _pictures: bool, _force: bool) -> Result<()> {
         let names: Vec<_> = self.targets.iter().map(ToString::to_string).collect();
-        Err(Error::usage(
-            format!(
-                "this build has no Rerun, so nothing goes to {}",
-                names.join(" or ")
-            ),
-            "build with it: cargo build --release --features rerun",
-        ))
+        Err(Error::absent(format!(
+            "this build has no Rerun, so nothing goes to {}",
+            names.join(" or ")
+        )))
     }
 
     pub fn want(&self, _scene: &Scene, _pictures: bool, _wanted: &mut Wanted) {}

@@ -8,11 +8,11 @@ use std::path::Path;
 use std::sync::Mutex;
 
 use glam::DVec3;
-use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use splashsurf_lib::nalgebra::Vector3;
 use splashsurf_lib::{Parameters, reconstruct_surface};
 
+use super::bar::Bar;
 use super::{disk, interrupt};
 use crate::error::{Error, Result};
 use crate::scene::Dimensions;
@@ -72,7 +72,10 @@ pub fn make_surfaces(recorded: &Sequence, out: &Path, settings: &SurfaceSettings
     }
     std::fs::create_dir_all(out).map_err(|reason| disk::failed(out, "create", reason))?;
     interrupt::listen();
-    let bar = bar(recorded.frames.len());
+    let bar = Bar::new(
+        "{bar:30} {pos}/{len} surfaces, {eta} left",
+        recorded.frames.len() as u32,
+    );
     let made = Mutex::new(Made::default());
     let done = recorded.frames.par_iter().try_for_each(|(frame, file)| {
         if interrupt::asked() {
@@ -91,10 +94,10 @@ pub fn make_surfaces(recorded: &Sequence, out: &Path, settings: &SurfaceSettings
             _ => made.meshes += 1,
         }
         made.triangles += triangles;
-        bar.inc(1);
+        bar.advance();
         Ok(())
     });
-    bar.finish_and_clear();
+    bar.clear();
     let mut made = made
         .into_inner()
         .unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -164,14 +167,6 @@ fn surface(file: &Path, recorded: f64, settings: &SurfaceSettings) -> Result<Opt
             .map(|t| t.map(|index| index as u32))
             .collect(),
     }))
-}
-
-/// Hidden where standard error is no terminal.
-fn bar(frames: usize) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} surfaces, {eta} left")
-        .expect("a template that stands above")
-        .progress_chars("━╸ ");
-    ProgressBar::new(frames as u64).with_style(style)
 }
 
 #[cfg(test)]

@@ -6,10 +6,10 @@ use super::Scale;
 use super::drops::Drop;
 use super::times::AllTimes;
 use crate::error::Result;
+use crate::gpu::timing::median;
 use crate::output::plot::Plot;
 use crate::study::bench::progress;
 use crate::study::cpu_grid::{Addressing, CpuGrid, Storage};
-use crate::study::measure::median;
 use crate::study::page::{Cell, Page, Table};
 
 const GRIDS: [(&str, Addressing, Storage); 4] = [

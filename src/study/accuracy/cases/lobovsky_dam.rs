@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::Case;
 use super::fluid::{flow, record, shipped, spacing};
 use crate::error::Result;
+use crate::gpu::timing::median;
 use crate::scene::Scene;
 use crate::study::Size;
 use crate::study::accuracy::record::{Bar, Figure, Record};
@@ -13,7 +14,6 @@ use crate::study::accuracy::run::Run;
 use crate::study::accuracy::sampler::{REACH, Sampler, share};
 use crate::study::accuracy::series::Series;
 use crate::study::bench::Bench;
-use crate::study::measure::median;
 
 pub const CASE: Case = Case {
     name: "lobovsky_dam",
