@@ -249,8 +249,12 @@ fn heatmap(gpu: &Gpu, scene: &Scene, counts: &[u32]) -> (RgbaImage, [u32; 3]) {
         capacity: counts.len() as u32,
         ..Grid::default()
     };
-    buffers.create(gpu, "grid", size_of::<Grid>() as u64, Usage::Uniform);
-    buffers.create(gpu, "voxel_count", counts.len() as u64 * 4, Usage::Storage);
+    buffers
+        .create(gpu, "grid", size_of::<Grid>() as u64, Usage::Uniform)
+        .unwrap();
+    buffers
+        .create(gpu, "voxel_count", counts.len() as u64 * 4, Usage::Storage)
+        .unwrap();
     buffers.write(gpu, "grid", 0, &[grid]).unwrap();
     buffers.write(gpu, "voxel_count", 0, counts).unwrap();
     let renderer = Renderer::new(gpu, scene, &stage::variant(scene), &mut buffers, View::Pool).unwrap();

@@ -7,11 +7,11 @@ use super::table::Align::{Left, Right};
 use super::table::Table;
 use crate::error::Result;
 use crate::gpu::device;
-use crate::output::text::bytes;
+use crate::output::text::{bytes, count};
 
 /// Lists the adapters that can compute and draw
 ///
-/// WGPU_BACKEND limits the list to a backend; WGPU_ADAPTER_NAME chooses an adapter where --adapter does not. Fails where
+/// Storage buffers are those that one pass can bind. WGPU_BACKEND limits the list to a backend; WGPU_ADAPTER_NAME chooses an adapter where --adapter does not. Fails where
 /// there is no adapter at all.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -28,7 +28,7 @@ Examples:
   WGPU_BACKEND=vulkan sliceflow devices --json";
 
 pub fn main(args: &Args) -> Result<()> {
-    let devices = device::list();
+    let devices = device::list()?;
     if devices.is_empty() {
         return Err(device::none_found());
     }
@@ -40,6 +40,7 @@ pub fn main(args: &Args) -> Result<()> {
         ("name", Left),
         ("kind", Left),
         ("backend", Left),
+        ("storage buffers", Right),
         ("one binding", Right),
         ("pass times", Left),
         ("driver", Left),
@@ -47,7 +48,7 @@ pub fn main(args: &Args) -> Result<()> {
     for device::Listed {
         index,
         identity,
-        binding_bytes,
+        limits,
         timestamps,
         ..
     } in devices
@@ -57,7 +58,8 @@ pub fn main(args: &Args) -> Result<()> {
             identity.name,
             identity.kind.to_owned(),
             identity.backend,
-            bytes(binding_bytes),
+            count(limits.storage_buffers.into()),
+            bytes(limits.binding),
             if timestamps { "yes" } else { "no" }.to_owned(),
             format!("{} {}", identity.driver, identity.driver_info),
         ]);

@@ -10,8 +10,8 @@ use super::table::Align::{Left, Right};
 use super::table::Table;
 use super::{grid, stdout};
 use crate::error::Result;
-use crate::gpu::device::{self, Limits, describe};
-use crate::gpu::{AdapterChoice, Gpu};
+use crate::gpu::device::{self, describe};
+use crate::gpu::{AdapterChoice, Gpu, Limits};
 use crate::output::text::{bytes, count};
 use crate::output::{Checkpoints, Outputs, checkpoint_estimate, disk_bytes};
 use crate::plan::{Phase, Plan};
@@ -65,7 +65,7 @@ pub struct Report<'a> {
 impl<'a> Report<'a> {
     pub fn new(scene: &'a Scene, outputs: &Outputs, choice: &AdapterChoice) -> Result<Self> {
         let (adapter, limits) = if *choice == AdapterChoice::Best && device::adapters().is_empty() {
-            (None, Limits::PROMISED)
+            (None, Limits::PROMISED.lowered_by_environment()?)
         } else {
             let gpu = Gpu::open(choice, false)?;
             (Some(describe(&gpu.adapter)), gpu.limits)
@@ -100,12 +100,8 @@ impl<'a> Report<'a> {
         json!({
             "scene": scene.name,
             "adapter": self.adapter,
-            "limits": {
-                "binding_bytes": limits.binding,
-                "buffer_bytes": limits.buffer,
-                "groups": limits.groups,
-                "texture_pixels": limits.texture,
-            },
+            "limits": limits,
+            "storage_buffers": self.plan.most_storage_buffers().1,
             "dimensions": scene.dimensions.count(),
             "particles_at_start": scene.particles.len(),
             "particles": scene.capacity,
@@ -179,6 +175,13 @@ impl fmt::Display for Report<'_> {
             bytes(self.largest_buffer()),
             bytes(limits.binding)
         )?;
+        let (label, most) = plan.most_storage_buffers();
+        writeln!(
+            f,
+            "bindings   at most {} storage buffers in a pass ({label}); the adapter allows {}",
+            count(most.into()),
+            count(limits.storage_buffers.into())
+        )?;
         let (stay, each) = self.checkpoint_estimate;
         write!(f, "disk       about {}", bytes(self.disk_bytes))?;
         if stay > 0 {
@@ -238,13 +241,14 @@ impl fmt::Display for Report<'_> {
                 write!(f, "\n{table}")?;
             }
         }
-        for note in scene.notes.iter().chain(&plan.notes) {
+        let mut notes = scene.notes.iter().chain(plan.told()).peekable();
+        if notes.peek().is_none() {
+            return Ok(());
+        }
+        for note in notes {
             write!(f, "\nnote: {note}")?;
         }
-        if !scene.notes.is_empty() || !plan.notes.is_empty() {
-            writeln!(f)?;
-        }
-        Ok(())
+        writeln!(f)
     }
 }
 

@@ -10,40 +10,55 @@ pub type Given<'a> = (&'a str, wgpu::BindingResource<'a>);
 /// The resources of entry points that share one pipeline.
 #[derive(Clone)]
 pub struct Bindings {
+    /// What the pass or draw is called, and its shader's file.
+    label: String,
     path: String,
     resources: Vec<Resource>,
     layout: wgpu::BindGroupLayout,
 }
 
 impl Bindings {
-    /// `visibility` is who sees the resources.
-    pub fn new(gpu: &Gpu, shader: &Shader, entries: &[&str], visibility: wgpu::ShaderStages) -> Result<Self> {
-        let mut resources: Vec<Resource> = Vec::new();
+    /// Each resource is visible to the stages that use it. The first of `entries` gives the whole its name.
+    ///
+    /// # Errors
+    ///
+    /// Where the adapter allows less than they take.
+    pub fn new(gpu: &Gpu, shader: &Shader, entries: &[&str]) -> Result<Self> {
+        let label = entries.first().copied().unwrap_or_default();
+        gpu.limits
+            .check(std::iter::once((label, shader.demand(entries)?)))?;
+        let mut used: Vec<(Resource, wgpu::ShaderStages)> = Vec::new();
         for entry in entries {
+            let stage = visibility(shader.stage(entry)?);
             for resource in shader.resources(entry)? {
-                if !resources.contains(&resource) {
-                    resources.push(resource);
+                match used.iter_mut().find(|(known, _)| *known == resource) {
+                    Some((_, stages)) => *stages |= stage,
+                    None => used.push((resource, stage)),
                 }
             }
         }
-        let entries: Vec<_> = resources
+        let layout: Vec<_> = used
             .iter()
-            .map(|resource| wgpu::BindGroupLayoutEntry {
+            .map(|(resource, stages)| wgpu::BindGroupLayoutEntry {
                 binding: resource.binding,
-                visibility,
+                visibility: *stages,
                 ty: resource.kind.layout(),
                 count: None,
             })
             .collect();
-        let layout = gpu
-            .device
-            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some(&shader.path),
-                entries: &entries,
-            });
+        let layout = gpu.make(
+            || format!("the bindings of `{label}`"),
+            |device| {
+                device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                    label: Some(label),
+                    entries: &layout,
+                })
+            },
+        )?;
         Ok(Self {
+            label: label.to_owned(),
             path: shader.path.clone(),
-            resources,
+            resources: used.into_iter().map(|(resource, _)| resource).collect(),
             layout,
         })
     }
@@ -53,13 +68,12 @@ impl Bindings {
         self.resources.iter().map(|resource| resource.name.as_str())
     }
 
-    pub fn pipeline_layout(&self, gpu: &Gpu) -> wgpu::PipelineLayout {
-        gpu.device
-            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some(&self.path),
-                bind_group_layouts: &[Some(&self.layout)],
-                immediate_size: 0,
-            })
+    pub fn pipeline_layout(&self, device: &wgpu::Device) -> wgpu::PipelineLayout {
+        device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(&self.label),
+            bind_group_layouts: &[Some(&self.layout)],
+            immediate_size: 0,
+        })
     }
 
     /// Binds each resource by its name, first from `given`, then from `buffers`.
@@ -75,11 +89,24 @@ impl Bindings {
                 resource: what,
             });
         }
-        Ok(gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(&self.path),
-            layout: &self.layout,
-            entries: &bound,
-        }))
+        gpu.make(
+            || format!("the bindings of `{}`", self.label),
+            |device| {
+                device.create_bind_group(&wgpu::BindGroupDescriptor {
+                    label: Some(&self.label),
+                    layout: &self.layout,
+                    entries: &bound,
+                })
+            },
+        )
+    }
+}
+
+fn visibility(stage: naga::ShaderStage) -> wgpu::ShaderStages {
+    match stage {
+        naga::ShaderStage::Vertex => wgpu::ShaderStages::VERTEX,
+        naga::ShaderStage::Fragment => wgpu::ShaderStages::FRAGMENT,
+        _ => wgpu::ShaderStages::COMPUTE,
     }
 }
 

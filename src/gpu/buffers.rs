@@ -23,24 +23,38 @@ pub struct Buffers {
 
 impl Buffers {
     /// Creates a zeroed buffer of `bytes` bytes.
-    pub fn create(&mut self, gpu: &Gpu, name: &str, bytes: u64, usage: Usage) {
+    ///
+    /// # Errors
+    ///
+    /// Where the adapter has no room for it.
+    pub fn create(&mut self, gpu: &Gpu, name: &str, bytes: u64, usage: Usage) -> Result<()> {
         let binding = match usage {
             Usage::Uniform => wgpu::BufferUsages::UNIFORM,
             Usage::Storage => wgpu::BufferUsages::STORAGE,
             Usage::Indirect => wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT,
         };
-        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        let descriptor = wgpu::BufferDescriptor {
             label: Some(name),
             size: bytes,
             usage: binding | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
-        });
+        };
+        // What it replaces makes room for it.
+        self.by_name.remove(name);
+        let what = || format!("buffer `{name}` of {bytes} bytes");
+        let buffer = gpu.make(what, |device| device.create_buffer(&descriptor))?;
         self.by_name.insert(name.to_owned(), buffer);
+        Ok(())
+    }
+
+    /// Gives a buffer's memory back, once nothing binds it any more.
+    pub fn remove(&mut self, name: &str) {
+        self.by_name.remove(name);
     }
 
     /// Creates a buffer as planned, with what it begins with.
     pub fn make(&mut self, gpu: &Gpu, plan: &BufferPlan) -> Result<()> {
-        self.create(gpu, &plan.name, plan.bytes, plan.usage);
+        self.create(gpu, &plan.name, plan.bytes, plan.usage)?;
         if !plan.fill.is_empty() {
             let times = plan.bytes as usize / size_of_val(plan.fill);
             self.write(gpu, &plan.name, 0, &plan.fill.repeat(times))?;

@@ -1,10 +1,9 @@
 //! Choosing an adapter and opening its device.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use serde::Serialize;
 
+use super::fault::{Faults, made, quietly};
+pub use super::limits::Limits;
 use crate::error::{Error, Result};
 
 /// Which adapter to use: the best one, one by its index in `sliceflow devices`, or one by part of its name.
@@ -25,29 +24,6 @@ impl AdapterChoice {
     }
 }
 
-/// Limits that a plan is made for, so that plans need no GPU.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Limits {
-    /// Bytes that one storage binding may have.
-    pub binding: u64,
-    /// Bytes that one buffer may have.
-    pub buffer: u64,
-    /// Workgroups along one dimension of a dispatch.
-    pub groups: u32,
-    /// Pixels along one side of a texture.
-    pub texture: u32,
-}
-
-impl Limits {
-    /// What WebGPU promises everywhere.
-    pub const PROMISED: Self = Self {
-        binding: 128 << 20,
-        buffer: 256 << 20,
-        groups: 65_535,
-        texture: 8192,
-    };
-}
-
 /// An open device with what the rest of the program asks about it; clones share the device.
 #[derive(Clone)]
 pub struct Gpu {
@@ -59,7 +35,7 @@ pub struct Gpu {
     pub has_timestamps: bool,
     /// Whether shaders are compiled with bounds checks and bounded loops (tests) or without (release).
     pub checked_shaders: bool,
-    lost: Arc<AtomicBool>,
+    faults: Faults,
 }
 
 /// Every adapter that the backends named by `WGPU_BACKEND` (all, when unset) offer.
@@ -108,25 +84,25 @@ pub struct Listed {
     pub index: usize,
     #[serde(flatten)]
     pub identity: Identity,
-    /// Bytes that one storage binding may have.
-    pub binding_bytes: u64,
-    /// Bytes that one buffer may have.
-    pub buffer_bytes: u64,
+    #[serde(flatten)]
+    pub limits: Limits,
     /// Whether passes can be timed.
     pub timestamps: bool,
 }
 
 /// What [`adapters`] are, for people to choose from.
-pub fn list() -> Vec<Listed> {
+///
+/// # Errors
+///
+/// Where `SLICEFLOW_LIMITS` makes no sense.
+pub fn list() -> Result<Vec<Listed>> {
     let listed = |(index, adapter): (usize, wgpu::Adapter)| {
-        let limits = adapter.limits();
-        Listed {
+        Ok(Listed {
             index,
             identity: Identity::of(&adapter.get_info()),
-            binding_bytes: limits.max_storage_buffer_binding_size,
-            buffer_bytes: limits.max_buffer_size,
+            limits: Limits::of(&adapter.limits()).lowered_by_environment()?,
             timestamps: adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY),
-        }
+        })
     };
     adapters().into_iter().enumerate().map(listed).collect()
 }
@@ -201,40 +177,53 @@ fn choose(choice: &AdapterChoice) -> Result<wgpu::Adapter> {
 
 impl Gpu {
     /// Opens a device with everything that its adapter allows.
+    ///
+    /// # Errors
+    ///
+    /// Where there is no such adapter, it cannot compute, it gives no device, or `SLICEFLOW_LIMITS` makes no sense.
     pub fn open(choice: &AdapterChoice, checked_shaders: bool) -> Result<Self> {
+        Self::open_within(choice, checked_shaders, Limits::lowered_by_environment)
+    }
+
+    /// Opens a device with the limits that `lower` makes of its adapter's.
+    ///
+    /// # Errors
+    ///
+    /// Where there is no such adapter, it cannot compute, it gives no device, or `lower` fails.
+    pub fn open_within(
+        choice: &AdapterChoice,
+        checked_shaders: bool,
+        lower: impl FnOnce(Limits) -> Result<Limits>,
+    ) -> Result<Self> {
         let adapter = choose(choice)?;
         let info = adapter.get_info();
+        let another = "choose another adapter with --adapter; `sliceflow devices` lists them";
+        let needed = wgpu::DownlevelFlags::COMPUTE_SHADERS | wgpu::DownlevelFlags::INDIRECT_EXECUTION;
+        if !adapter.get_downlevel_capabilities().flags.contains(needed) {
+            return Err(Error::device(
+                format!("{} cannot compute", describe(&info)),
+                another,
+            ));
+        }
         let timestamps = wgpu::Features::TIMESTAMP_QUERY;
         let has_timestamps = adapter.features().contains(timestamps);
-        let limits = adapter.limits();
+        let offered = adapter.limits();
+        let limits = lower(Limits::of(&offered))?;
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("sliceflow"),
             required_features: adapter.features() & timestamps,
-            required_limits: limits.clone(),
+            required_limits: limits.within(&offered),
             ..Default::default()
         }))
-        .map_err(|error| {
-            Error::device(
-                format!("{} gives no device: {error}", describe(&info)),
-                "choose another adapter with --adapter; `sliceflow devices` lists them",
-            )
-        })?;
-        let lost = Arc::new(AtomicBool::new(false));
-        let flag = lost.clone();
-        device.set_device_lost_callback(move |_, _| flag.store(true, Ordering::Relaxed));
+        .map_err(|error| Error::device(format!("{} gives no device: {error}", describe(&info)), another))?;
         Ok(Self {
+            faults: Faults::watch(&device),
             device,
             queue,
-            limits: Limits {
-                binding: limits.max_storage_buffer_binding_size,
-                buffer: limits.max_buffer_size,
-                groups: limits.max_compute_workgroups_per_dimension,
-                texture: limits.max_texture_dimension_2d,
-            },
+            limits,
             adapter: info,
             has_timestamps,
             checked_shaders,
-            lost,
         })
     }
 
@@ -243,19 +232,50 @@ impl Gpu {
         self.adapter.device_type == wgpu::DeviceType::Cpu
     }
 
+    /// Makes something on the device.
+    ///
+    /// # Errors
+    ///
+    /// Where memory is full, and where the device or the driver refuses it; the message calls it `what`.
+    pub fn make<T>(&self, what: impl FnOnce() -> String, make: impl FnOnce(&wgpu::Device) -> T) -> Result<T> {
+        made(&self.device, what, make)
+    }
+
+    /// Has the device do what was recorded.
+    ///
+    /// # Errors
+    ///
+    /// What went wrong on the device so far.
+    pub fn submit(&self, encoder: wgpu::CommandEncoder) -> Result<wgpu::SubmissionIndex> {
+        let submission = self.queue.submit([encoder.finish()]);
+        self.check()?;
+        Ok(submission)
+    }
+
     /// Waits until the device has done `submission`, or everything when it is `None`.
+    ///
+    /// # Errors
+    ///
+    /// What went wrong on the device so far.
     pub fn wait(&self, submission: Option<wgpu::SubmissionIndex>) -> Result<()> {
-        let waited = self.device.poll(wgpu::PollType::Wait {
+        let wait = wgpu::PollType::Wait {
             submission_index: submission,
             timeout: None,
-        });
-        match waited {
-            Ok(_) if !self.lost.load(Ordering::Relaxed) => Ok(()),
-            _ => Err(Error::device(
-                format!("the device was lost: {}", describe(&self.adapter)),
-                "finished frames are on disk; run again, with a smaller scene if the device ran out of memory \
-                 or out of its watchdog's time",
-            )),
-        }
+        };
+        // wgpu panics where the driver loses the device while it is waited for.
+        let waited = quietly(|| self.device.poll(wait));
+        self.check()?;
+        let why = match waited {
+            Some(Ok(_)) => return Ok(()),
+            Some(Err(why)) => why.to_string(),
+            None => String::new(),
+        };
+        self.faults.keep_loss(why);
+        self.check()
+    }
+
+    /// What went wrong on the device so far.
+    fn check(&self) -> Result<()> {
+        self.faults.check(|| describe(&self.adapter))
     }
 }

@@ -44,9 +44,8 @@ impl Draw {
         given: &[Given<'_>],
     ) -> Result<Self> {
         let entries: Vec<&str> = std::iter::once(vertex).chain(fragment).collect();
-        let visibility = wgpu::ShaderStages::VERTEX_FRAGMENT;
-        let bindings = Bindings::new(gpu, shader, &entries, visibility)?;
-        let module = shader.module(gpu);
+        let bindings = Bindings::new(gpu, shader, &entries)?;
+        let module = shader.module(gpu)?;
         let blend = style.color.map_or(Blend::Opaque, |(_, blend)| blend);
         let target = style.color.map(|(format, blend)| wgpu::ColorTargetState {
             format,
@@ -60,11 +59,10 @@ impl Draw {
             Some(target) => &[Some(target.clone())],
             None => &[],
         };
-        let pipeline = gpu
-            .device
-            .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        let make = |device: &wgpu::Device| {
+            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(vertex),
-                layout: Some(&bindings.pipeline_layout(gpu)),
+                layout: Some(&bindings.pipeline_layout(device)),
                 vertex: wgpu::VertexState {
                     module: &module,
                     entry_point: Some(vertex),
@@ -92,7 +90,9 @@ impl Draw {
                 }),
                 multiview_mask: None,
                 cache: None,
-            });
+            })
+        };
+        let pipeline = gpu.make(|| format!("draw `{vertex}`"), make)?;
         Ok(Self {
             label: vertex.to_owned(),
             pipeline,

@@ -18,20 +18,24 @@ pub struct Kernel {
 
 impl Kernel {
     pub fn new(gpu: &Gpu, shader: &Shader, entry: &str) -> Result<Self> {
-        let bindings = Bindings::new(gpu, shader, &[entry], wgpu::ShaderStages::COMPUTE)?;
-        let pipeline = gpu
-            .device
-            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(entry),
-                layout: Some(&bindings.pipeline_layout(gpu)),
-                module: &shader.module(gpu),
-                entry_point: Some(entry),
-                compilation_options: wgpu::PipelineCompilationOptions {
-                    zero_initialize_workgroup_memory: gpu.checked_shaders,
-                    ..Default::default()
-                },
-                cache: None,
-            });
+        let bindings = Bindings::new(gpu, shader, &[entry])?;
+        let module = shader.module(gpu)?;
+        let pipeline = gpu.make(
+            || format!("pass `{entry}`"),
+            |device| {
+                device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                    label: Some(entry),
+                    layout: Some(&bindings.pipeline_layout(device)),
+                    module: &module,
+                    entry_point: Some(entry),
+                    compilation_options: wgpu::PipelineCompilationOptions {
+                        zero_initialize_workgroup_memory: gpu.checked_shaders,
+                        ..Default::default()
+                    },
+                    cache: None,
+                })
+            },
+        )?;
         Ok(Self {
             label: entry.to_owned(),
             pipeline,

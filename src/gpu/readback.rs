@@ -46,15 +46,20 @@ impl<T> Ring<T> {
         let fits = self.free.iter().position(|buffer| buffer.size() == size);
         let buffer = match fits {
             Some(index) => self.free.swap_remove(index),
-            None => gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("staging"),
-                size,
-                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            }),
+            None => gpu.make(
+                || format!("buffer `staging` of {size} bytes"),
+                |device| {
+                    device.create_buffer(&wgpu::BufferDescriptor {
+                        label: Some("staging"),
+                        size,
+                        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+                        mapped_at_creation: false,
+                    })
+                },
+            )?,
         };
         fill(&mut encoder, &buffer);
-        let submission = gpu.queue.submit([encoder.finish()]);
+        let submission = gpu.submit(encoder)?;
         buffer.map_async(wgpu::MapMode::Read, .., |_| {});
         self.under_way.push_back(Copy {
             buffer,

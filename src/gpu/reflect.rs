@@ -1,10 +1,13 @@
 //! A parsed, validated shader module and what it tells about itself: bindings by name, workgroup sizes, structs.
 
+use std::collections::BTreeSet;
+
 use naga::proc::Layouter;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, Binding, ResourceBinding, StorageAccess, TypeInner};
 
 use super::compose::{self, Composed, Variant};
+use super::limits::Demand;
 use crate::error::{Error, Result};
 
 /// A composed module, parsed and validated without a GPU.
@@ -107,6 +110,53 @@ impl Shader {
         self.module.entry_points.iter().map(|e| e.name.as_str())
     }
 
+    /// The stage of an entry point.
+    pub fn stage(&self, entry: &str) -> Result<naga::ShaderStage> {
+        Ok(self.module.entry_points[self.entry_index(entry)?].stage)
+    }
+
+    /// What entry points that share one pipeline take of an adapter's limits.
+    pub fn demand(&self, entries: &[&str]) -> Result<Demand> {
+        let mut demand = Demand::default();
+        let mut bound = BTreeSet::new();
+        for entry in entries {
+            let resources = self.resources(entry)?;
+            let count = |of: fn(ResourceKind) -> bool| resources.iter().filter(|r| of(r.kind)).count() as u32;
+            let of_stage = Demand {
+                storage_buffers: count(|kind| matches!(kind, ResourceKind::Storage { .. })),
+                uniform_buffers: count(|kind| kind == ResourceKind::Uniform),
+                textures: count(|kind| matches!(kind, ResourceKind::Texture { .. })),
+                samplers: count(|kind| matches!(kind, ResourceKind::Sampler { .. })),
+                threads: match self.stage(entry)? {
+                    naga::ShaderStage::Compute => self.workgroup_threads(entry)?,
+                    _ => 0,
+                },
+                group_bytes: self.workgroup_bytes(entry)?,
+                bindings: 0,
+            };
+            bound.extend(resources.iter().map(|resource| resource.binding));
+            demand = demand.or_more(&of_stage);
+        }
+        demand.bindings = bound.len() as u32;
+        Ok(demand)
+    }
+
+    /// Bytes that the threads of one workgroup share.
+    fn workgroup_bytes(&self, entry: &str) -> Result<u32> {
+        let used = self.info.get_entry_point(self.entry_index(entry)?);
+        let mut layouter = Layouter::default();
+        layouter
+            .update(self.module.to_ctx())
+            .map_err(|error| Error::Shader {
+                message: format!("shaders/{}: {error}", self.path),
+            })?;
+        let shared = self.module.global_variables.iter();
+        Ok(shared
+            .filter(|(handle, global)| global.space == AddressSpace::WorkGroup && !used[*handle].is_empty())
+            .map(|(_, global)| layouter[global.ty].to_stride())
+            .sum())
+    }
+
     /// Threads of one workgroup of a compute entry point.
     pub fn workgroup_threads(&self, entry: &str) -> Result<u32> {
         let size = self.module.entry_points[self.entry_index(entry)?].workgroup_size;
@@ -174,7 +224,11 @@ impl Shader {
     }
 
     /// Hands the module to the device.
-    pub fn module(&self, gpu: &super::Gpu) -> wgpu::ShaderModule {
+    ///
+    /// # Errors
+    ///
+    /// Where the device or the driver refuses it.
+    pub fn module(&self, gpu: &super::Gpu) -> Result<wgpu::ShaderModule> {
         let descriptor = wgpu::ShaderModuleDescriptor {
             label: Some(&self.path),
             source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(self.module.clone())),
@@ -184,7 +238,10 @@ impl Shader {
         } else {
             wgpu::ShaderRuntimeChecks::unchecked()
         };
-        // SAFETY: the modules are our own; the tests run each of them with all checks on.
-        unsafe { gpu.device.create_shader_module_trusted(descriptor, checks) }
+        gpu.make(
+            || format!("shaders/{}", self.path),
+            // SAFETY: the modules are our own; the tests run each of them with all checks on.
+            |device| unsafe { device.create_shader_module_trusted(descriptor, checks) },
+        )
     }
 }

@@ -51,7 +51,7 @@ impl Timer {
                     let mut encoder = gpu.device.create_command_encoder(&Default::default());
                     pass.dispatch(&mut encoder.begin_compute_pass(&Default::default()), *groups);
                     let start = Instant::now();
-                    gpu.queue.submit([encoder.finish()]);
+                    gpu.submit(encoder)?;
                     gpu.wait(None)?;
                     Ok((pass.label.clone(), start.elapsed().as_secs_f64() * 1e3))
                 };
@@ -76,7 +76,7 @@ impl Timer {
                 }
                 let count = 2 * passes.len() as u32;
                 encoder.resolve_query_set(queries, 0..count, resolved, 0);
-                gpu.queue.submit([encoder.finish()]);
+                gpu.submit(encoder)?;
                 let ticks: Vec<u64> = readback::read(gpu, resolved, count as usize)?;
                 let milliseconds =
                     |pair: &[u64]| pair[1].saturating_sub(pair[0]) as f64 * f64::from(*period) * 1e-6;

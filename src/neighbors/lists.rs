@@ -4,7 +4,8 @@
 use super::addressing::search_state;
 use super::layout::ListState;
 use super::{Search, storage};
-use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
+use crate::error::{Error, Result};
+use crate::gpu::{BufferPlan, Items, Limits, PassPlan, Variant};
 use crate::scene::model::FluidSolver;
 use crate::scene::{Dimensions, Matter, Scene};
 
@@ -72,6 +73,83 @@ pub fn buffers(scene: &Scene, length: u32) -> Vec<BufferPlan> {
         ));
     }
     buffers
+}
+
+/// The longest lists, of at least `least` and at most `most` neighbors, that an adapter binds; `None` where it binds none
+/// of them.
+pub fn longest(scene: &Scene, least: u32, most: u32, limits: &Limits) -> Option<u32> {
+    let fits = |length| list_bytes(scene, length) <= limits.largest();
+    let (mut fitting, mut beyond) = (least, u64::from(most.max(least)) + 1);
+    if !fits(fitting) {
+        return None;
+    }
+    while u64::from(fitting) + 1 < beyond {
+        let middle = u64::from(fitting).midpoint(beyond) as u32;
+        if fits(middle) {
+            fitting = middle;
+        } else {
+            beyond = middle.into();
+        }
+    }
+    Some(fitting)
+}
+
+/// Bytes of the largest buffer of lists with room for so many neighbors.
+fn list_bytes(scene: &Scene, length: u32) -> u64 {
+    let largest = buffers(scene, length)
+        .into_iter()
+        .map(|buffer| buffer.bytes)
+        .max();
+    largest.unwrap_or_default()
+}
+
+/// The same scene without lists.
+pub fn without(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    scene.neighbors.skin = 0.0;
+    scene
+}
+
+/// Whether a scene asks for lists and goes without them where they do not fit.
+pub fn can_be_left_out(scene: &Scene) -> bool {
+    wanted(scene) && needed_by(scene).is_none()
+}
+
+/// What of a scene needs lists, and what helps to do without.
+fn needed_by(scene: &Scene) -> Option<(&'static str, &'static str)> {
+    if scene.domain.period() != glam::Vec3::ZERO {
+        Some(("periodic sides", "choose other sides"))
+    } else if scene.time.adaptive.is_some() {
+        Some(("adaptive steps", "set time.adaptive to false"))
+    } else {
+        None
+    }
+}
+
+/// What a run says that leaves out lists of `length` neighbors, for which an adapter has no room.
+///
+/// # Errors
+///
+/// Where the scene needs lists.
+pub fn left_out(scene: &Scene, length: u32, limits: &Limits) -> Result<String> {
+    let why = format!(
+        "lists of {length} neighbors of each of {} particles need {} bytes; this adapter binds at most {} at once",
+        scene.capacity,
+        list_bytes(scene, length),
+        limits.largest()
+    );
+    match needed_by(scene) {
+        None => Ok(format!(
+            "{why}: neighbors are searched in every step, without lists, which takes longer"
+        )),
+        Some((needed_by, instead)) => Err(Error::Limit {
+            what: format!("{why}, and {needed_by} need lists"),
+            help: format!(
+                "take fewer particles, set neighbors.skin lower, {instead}, or choose another adapter (`sliceflow \
+                 devices` lists them)"
+            ),
+        }),
+    }
 }
 
 /// Puts the lists behind a search, and lets the search run only when they no longer serve.

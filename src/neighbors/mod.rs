@@ -49,7 +49,12 @@ pub struct Search {
 
 /// What a scene's first state needs, with the slicing axis that needs least where the scene leaves it open.
 pub fn first_grid(scene: &Scene) -> Grid {
-    let (grid, room) = least(scene, &scene.positions());
+    grid_for(scene, &scene.positions())
+}
+
+/// The same for particles at these local positions.
+pub fn grid_for(scene: &Scene, positions: &[Vec3]) -> Grid {
+    let (grid, room) = least(scene, positions);
     roomy(scene, grid, room)
 }
 

@@ -46,6 +46,8 @@ struct Header {
     dimensions: u32,
     /// Metres.
     origin: [f64; 3],
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    lists_left_out: Option<String>,
     /// Name and bytes.
     buffers: Vec<(String, u64)>,
 }
@@ -64,6 +66,7 @@ impl Checkpoint {
             particles: state.particles,
             dimensions: state.dimensions.count() as u32,
             origin: state.origin.to_array(),
+            lists_left_out: state.lists_left_out.clone(),
             buffers: sizes.collect(),
         };
         let header = serde_json::to_vec(&header).expect("keys are text");
@@ -109,6 +112,7 @@ impl Checkpoint {
                 _ => Dimensions::Three,
             },
             origin: DVec3::from_array(header.origin),
+            lists_left_out: header.lists_left_out,
             buffers,
         };
         rest.is_empty().then_some(Self {
@@ -136,6 +140,7 @@ mod tests {
                 particles: 1,
                 dimensions: Dimensions::Two,
                 origin: DVec3::new(0.1, -1e6, 0.0),
+                lists_left_out: Some("too long".into()),
                 buffers: vec![("position".into(), vec![1, 2, 3]), ("id".into(), vec![])],
             },
         }

@@ -15,6 +15,9 @@ pub struct Health {
     overlap_told: bool,
     quarantine_told: bool,
     growths: u32,
+    /// Told in every sitting.
+    #[serde(skip)]
+    lists_told: bool,
 }
 
 impl Health {
@@ -38,6 +41,10 @@ impl Health {
                 frame.index,
                 count(frame.quarantined.into())
             ));
+        }
+        if let (false, Some(why)) = (self.lists_told, &frame.lists_left_out) {
+            self.lists_told = true;
+            warnings.push(format!("frame {}: {why}", frame.index));
         }
         self.growths += frame.growths;
         let overlap = frame.statistics.map_or(0.0, |statistics| statistics.max_overlap);
@@ -94,15 +101,15 @@ mod tests {
             }),
             ..frame.clone()
         };
-        let (well, ill) = (with(0.05, 0), with(0.3, 40));
+        let (well, mut ill) = (with(0.05, 0), with(0.3, 40));
+        ill.lists_left_out = Some("no lists".into());
         let mut health = Health::default();
         assert!(health.check(&well).is_empty());
         assert_eq!(health.summary(), None);
         let warnings = health.check(&ill);
-        assert!(
-            warnings[0].contains("40 times") && warnings[1].contains("30 %"),
-            "{warnings:?}"
-        );
+        assert!(warnings[0].contains("40 times"), "{warnings:?}");
+        assert!(warnings[1] == "frame 7: no lists", "{warnings:?}");
+        assert!(warnings[2].contains("30 %"), "{warnings:?}");
         assert!(health.check(&ill).is_empty());
         assert!(health.summary().unwrap().contains("80 times"));
     }

@@ -200,6 +200,7 @@ mod tests {
                 particles: 0,
                 dimensions: crate::scene::Dimensions::Two,
                 origin: glam::DVec3::ZERO,
+                lists_left_out: None,
                 buffers: Vec::new(),
             };
             let about = About {

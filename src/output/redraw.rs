@@ -75,6 +75,9 @@ pub fn redraw(recorded: &Recorded, overrides: &[String], settings: &Settings) ->
         ..Default::default()
     };
     let plan = Plan::new(&scene, &gpu.limits, &wanted)?;
+    if let Some(why) = &plan.lists_left_out {
+        progress.note(why);
+    }
     let mut simulation = Simulation::new(gpu, &scene, &plan)?;
     if let Some(told) = folder.clear()? {
         progress.note(&told);

@@ -261,6 +261,9 @@ fn reach(
     interrupt::listen();
     let gpu = open(settings, progress)?;
     let plan = Plan::new(scene, &gpu.limits, &Wanted::default())?;
+    if let Some(why) = &plan.lists_left_out {
+        progress.note(why);
+    }
     let mut simulation = Simulation::new(gpu, scene, &plan)?;
     if let Some(state) = &state {
         simulation.restore(state)?;

@@ -2,16 +2,17 @@
 //!
 //! A plan is made without a GPU; [`crate::simulation::Simulation`] executes it to the letter.
 
+mod fit;
+
 use std::collections::BTreeSet;
 
 use serde::Serialize;
 
 use crate::error::{Error, Result};
 use crate::gpu::compose::{GROUP_SIZE, SCAN_ITEMS, SCAN_THREADS};
-use crate::gpu::device::Limits;
 use crate::gpu::pass::{INDEX_STRIDE, fold};
-use crate::gpu::{BufferPlan, DISPATCHES, Items, PassPlan, Variant};
-use crate::neighbors::{self, Grid};
+use crate::gpu::{BufferPlan, DISPATCHES, Demand, Items, Limits, PassPlan, Variant};
+use crate::neighbors::{self, Grid, lists};
 use crate::physics::collider::Obstacles;
 use crate::physics::layout::{Clock, Guard, Occupancy, PACKED_BYTES, Parameters, Sums};
 use crate::physics::{dem, dfsph, fluid, pace};
@@ -53,6 +54,8 @@ pub struct PassRow {
     pub phase: Phase,
     #[serde(flatten)]
     pub pass: PassPlan,
+    #[serde(flatten)]
+    pub demand: Demand,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -67,8 +70,13 @@ pub struct TexturePlan {
 #[derive(Debug, Clone, Serialize)]
 pub struct DrawPlan {
     pub label: String,
+    /// The entry point that shades what is drawn, where there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fragment: Option<String>,
     pub shader: String,
     pub why: String,
+    #[serde(flatten)]
+    pub demand: Demand,
 }
 
 /// Everything that a run will do on the device.
@@ -95,6 +103,8 @@ pub struct Plan {
     pub passes: Vec<PassRow>,
     pub draws: Vec<DrawPlan>,
     pub notes: Vec<String>,
+    /// Why there are no neighbor lists where the scene asks for them.
+    pub lists_left_out: Option<String>,
     #[serde(skip)]
     pub variant: Variant,
     #[serde(skip)]
@@ -106,12 +116,56 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// The plan of a run of `scene` from its beginning. Where neighbor lists do not fit and the scene can do without, it
+    /// has none ([`Plan::lists_left_out`]).
+    ///
+    /// # Errors
+    ///
+    /// Where the scene needs more than the limits allow.
     pub fn new(scene: &Scene, limits: &Limits, wanted: &Wanted) -> Result<Self> {
-        Self::with_grid(scene, limits, wanted, neighbors::first_grid(scene))
+        let mut grid = neighbors::first_grid(scene);
+        if lists::wanted(scene) {
+            let usual = lists::usual_length(scene);
+            match lists::longest(scene, usual, grid.list_capacity.max(usual), limits) {
+                Some(length) => grid.list_capacity = length,
+                None => {
+                    let why = lists::left_out(scene, usual, limits)?;
+                    let scene = lists::without(scene);
+                    return Self::without_lists(&scene, limits, wanted, neighbors::first_grid(&scene), why);
+                }
+            }
+        }
+        Self::of_grid(scene, limits, wanted, grid)?.demanding(scene, limits)
     }
 
-    /// The plan with this grid, whose buffers have room for what particles need by now.
-    pub fn with_grid(scene: &Scene, limits: &Limits, wanted: &Wanted, grid: Grid) -> Result<Self> {
+    /// The plan, with this grid, of a scene whose lists were left out for a reason.
+    pub fn without_lists(
+        scene: &Scene,
+        limits: &Limits,
+        wanted: &Wanted,
+        grid: Grid,
+        why: String,
+    ) -> Result<Self> {
+        let plan = Self::of_grid(scene, limits, wanted, grid)?.demanding(scene, limits)?;
+        Ok(Self {
+            lists_left_out: Some(why),
+            ..plan
+        })
+    }
+
+    /// The same plan with this grid, whose buffers have room for what particles need by now.
+    pub fn with_grid(&self, scene: &Scene, limits: &Limits, grid: Grid) -> Result<Self> {
+        Ok(Self {
+            // A grid decides how large buffers are, and nothing about shaders.
+            passes: self.passes.clone(),
+            draws: self.draws.clone(),
+            lists_left_out: self.lists_left_out.clone(),
+            ..Self::of_grid(scene, limits, &self.wanted, grid)?
+        })
+    }
+
+    /// The plan with this grid. It does not say yet what its passes demand of the adapter.
+    fn of_grid(scene: &Scene, limits: &Limits, wanted: &Wanted, grid: Grid) -> Result<Self> {
         let mut variant = Variant::default();
         variant
             .flag("two_dimensional", scene.dimensions == Dimensions::Two)
@@ -148,10 +202,10 @@ impl Plan {
             Matter::Fluid(fluid) => fluid::plan(scene, fluid, &columns, wanted.statistics, &mut variant),
         };
 
-        let [start, step] = if neighbors::lists::wanted(scene) {
-            neighbors::lists::phases(
+        let [start, step] = if lists::wanted(scene) {
+            lists::phases(
                 &search,
-                neighbors::lists::every_step(scene),
+                lists::every_step(scene),
                 &solver.before_search,
                 &solver.after_search,
             )
@@ -170,6 +224,7 @@ impl Plan {
             move |pass: &PassPlan| PassRow {
                 phase,
                 pass: pass.clone(),
+                demand: Demand::default(),
             }
         };
         let mut passes: Vec<PassRow> = start.iter().map(row(Phase::Start)).collect();
@@ -214,8 +269,10 @@ impl Plan {
             }));
             draws.extend(needs.draws.into_iter().map(|draw| DrawPlan {
                 label: draw.label,
+                fragment: draw.fragment,
                 shader: draw.shader,
                 why: draw.why,
+                demand: Demand::default(),
             }));
             picture_bytes = scene
                 .render
@@ -243,13 +300,35 @@ impl Plan {
             passes,
             draws,
             notes: [obstacles.notes.clone(), search.notes].concat(),
+            lists_left_out: None,
             variant,
             grid: search.grid,
             obstacles,
             wanted: wanted.clone(),
         };
-        plan.check(limits)?;
+        plan.check_sizes(limits)?;
         Ok(plan)
+    }
+
+    /// What is good to know about the plan.
+    pub fn told(&self) -> impl Iterator<Item = &String> {
+        self.notes.iter().chain(&self.lists_left_out)
+    }
+
+    /// The plan, for measures that would be others without lists.
+    ///
+    /// # Errors
+    ///
+    /// Where lists were left out.
+    pub fn with_its_lists(self) -> Result<Self> {
+        match self.lists_left_out {
+            None => Ok(self),
+            Some(why) => Err(Error::Limit {
+                what: why,
+                help: "set neighbors.skin=0, or choose another adapter (`sliceflow devices` lists them)"
+                    .into(),
+            }),
+        }
     }
 
     /// Bytes of all buffers and textures.
@@ -329,47 +408,6 @@ impl Plan {
     pub fn indices(&self) -> Vec<u32> {
         indices(&self.passes)
     }
-
-    /// Refuses what the adapter cannot hold, with the number that would fit.
-    fn check(&self, limits: &Limits) -> Result<()> {
-        let most = limits.binding.min(limits.buffer);
-        if let Some(buffer) = self.buffers.iter().find(|b| b.bytes > most) {
-            let fitting = |count: u32| u128::from(count) * u128::from(most) / u128::from(buffer.bytes);
-            return Err(Error::Limit {
-                what: format!(
-                    "buffer `{}` ({}) needs {} bytes; this adapter binds at most {most} at once",
-                    buffer.name, buffer.why, buffer.bytes
-                ),
-                help: if !VOXEL_BUFFERS.contains(&buffer.name.as_str()) {
-                    format!(
-                        "{} particles would fit; or choose another adapter",
-                        fitting(self.capacity)
-                    )
-                } else {
-                    format!(
-                        "{} voxels would fit instead of {}: shrink the domain, enlarge the grains or the search radius, \
-                         use fewer slots, choose a grid that takes less (--grid bitmap-counting) or another adapter",
-                        fitting(self.grid.capacity),
-                        self.grid.capacity
-                    )
-                },
-            });
-        }
-        if let Some(texture) = self
-            .textures
-            .iter()
-            .find(|t| t.size[0].max(t.size[1]) > limits.texture)
-        {
-            return Err(Error::Limit {
-                what: format!(
-                    "texture `{}` needs {}×{} pixels; this adapter has at most {} a side",
-                    texture.name, texture.size[0], texture.size[1], limits.texture
-                ),
-                help: "choose a smaller --size or a lower render.antialias".into(),
-            });
-        }
-        Ok(())
-    }
 }
 
 fn indices(passes: &[PassRow]) -> Vec<u32> {
@@ -383,18 +421,6 @@ fn pass_indices(passes: &[PassRow]) -> Option<BufferPlan> {
     let why = "the number of each pass that runs several times";
     (bytes > 0).then(|| BufferPlan::uniform("pass_index", bytes, why))
 }
-
-/// Buffers that grow with the number of voxels; the others grow with the number of particles.
-const VOXEL_BUFFERS: &[&str] = &[
-    "voxel_start",
-    "voxel_count",
-    "index_pool",
-    "block_sum",
-    "row_bounds",
-    "row_record",
-    "voxel_mark",
-    "voxel_word",
-];
 
 /// Bytes of one frame of a column that is brought to the host.
 fn column_bytes(scene: &Scene, column: &Column) -> u64 {

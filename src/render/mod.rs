@@ -35,6 +35,11 @@ use crate::scene::model::View;
 use crate::scene::{Scene, color_maps};
 use stages::Stages;
 
+/// What the shaders of a scene's pictures are made of: the plan's variant with what pictures add.
+pub fn variant(scene: &Scene, view: View, plan: &Variant) -> Variant {
+    Style::new(scene, view).variant(scene, plan)
+}
+
 /// Draws frames of one scene and view.
 pub struct Renderer {
     scene: Scene,
@@ -62,7 +67,7 @@ impl Renderer {
         check_limits(gpu, &needs)?;
         for need in &needs.buffers {
             if !buffers.contains(&need.name) {
-                buffers.create(gpu, &need.name, need.bytes, need.usage);
+                buffers.create(gpu, &need.name, need.bytes, need.usage)?;
             }
         }
         let variant = style.variant(scene, variant);
@@ -125,7 +130,7 @@ impl Renderer {
         if let (Some(stages), Some(place)) = (&self.stages, self.layout.scene) {
             let picture = Picture::new(&self.scene, &self.layout, place, &self.style, time, count);
             let looks = colliders::looks(&self.scene.colliders, offsets);
-            stages.encode(gpu, encoder, &picture, &looks);
+            stages.encode(gpu, encoder, &picture, &looks)?;
         }
         if let (Some(paint), Some(place)) = (&self.paint_pool, &self.layout.pool) {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {

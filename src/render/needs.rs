@@ -24,6 +24,8 @@ pub struct TextureNeed {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DrawNeed {
     pub label: String,
+    /// The entry point that shades what is drawn; `None` for compute passes and for draws that write depth only.
+    pub fragment: Option<String>,
     /// File below `shaders/`, without its ending.
     pub shader: String,
     pub why: String,
@@ -54,10 +56,11 @@ impl Needs {
         });
     }
 
-    fn draw(&mut self, on: bool, label: &str, shader: &str, why: &str) {
+    fn draw(&mut self, on: bool, label: &str, fragment: Option<&str>, shader: &str, why: &str) {
         if on {
             self.draws.push(DrawNeed {
                 label: label.to_owned(),
+                fragment: fragment.map(str::to_owned),
                 shader: shader.to_owned(),
                 why: why.to_owned(),
             });
@@ -85,6 +88,7 @@ pub fn needs(scene: &Scene, view: View) -> Needs {
         needs.draw(
             true,
             "paint_pool",
+            None,
             "render/pool",
             "the index pool, one texel a voxel",
         );
@@ -134,56 +138,72 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
     needs.draw(
         style.shadows,
         "cast_splat",
+        style.round_shadows.then_some("round_splat"),
         "render/cast_shadow",
         "shadows of particles",
     );
     needs.draw(
         style.shadows && style.colliders,
         "cast_collider",
+        None,
         "render/colliders",
         "shadows of colliders",
     );
     needs.draw(
         style.occlusion,
         "place_occluder",
+        None,
         "render/occluders",
         "what spheres surely hide",
     );
     needs.draw(
         style.occlusion,
         "find_block_depth",
+        None,
         "render/occlusion",
         "the same, by blocks of pixels",
     );
-    needs.draw(true, "color_splats", "render/color_splats", "values to colors");
-    needs.draw(style.colliders, "place_collider", "render/colliders", "colliders");
-    let splat = if style.spheres {
-        "place_sphere"
-    } else {
-        "place_disc"
-    };
-    needs.draw(true, splat, style.splat_shader(), "particles");
+    needs.draw(
+        true,
+        "color_splats",
+        None,
+        "render/color_splats",
+        "values to colors",
+    );
+    needs.draw(
+        style.colliders,
+        "place_collider",
+        Some("shade_collider"),
+        "render/colliders",
+        "colliders",
+    );
+    let (vertex, fragment) = style.splat_entries();
+    needs.draw(true, vertex, Some(fragment), style.splat_shader(), "particles");
     needs.draw(
         style.domain,
         "place_domain_edge",
+        Some("draw_red"),
         "render/domain_box",
         "the domain in red lines",
     );
     needs.draw(
         style.slices,
         "place_slice_side",
+        Some("fill_green"),
         "render/slices",
         "allocated slices, translucent",
     );
     needs.draw(
         style.slices,
         "place_slice_edge",
+        Some("edge_green"),
         "render/slices",
         "edges of the slices",
     );
     needs.draw(
         true,
         "resolve",
+        None,
         "render/resolve",
         "samples to pixels, over the backdrop",
     );

@@ -37,9 +37,11 @@ fn style(topology: wgpu::PrimitiveTopology, blend: Option<Blend>) -> DrawStyle {
     }
 }
 
-fn texture(gpu: &Gpu, needs: &Needs, name: &str) -> Option<wgpu::TextureView> {
-    let need = needs.textures.iter().find(|need| need.name == name)?;
-    let made = gpu.device.create_texture(&wgpu::TextureDescriptor {
+fn texture(gpu: &Gpu, needs: &Needs, name: &str) -> Result<Option<wgpu::TextureView>> {
+    let Some(need) = needs.textures.iter().find(|need| need.name == name) else {
+        return Ok(None);
+    };
+    let descriptor = wgpu::TextureDescriptor {
         label: Some(name),
         size: wgpu::Extent3d {
             width: need.size[0],
@@ -56,8 +58,10 @@ fn texture(gpu: &Gpu, needs: &Needs, name: &str) -> Option<wgpu::TextureView> {
         },
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
         view_formats: &[],
-    });
-    Some(made.create_view(&Default::default()))
+    };
+    let what = || format!("texture `{name}` of {} bytes", need.bytes);
+    let made = gpu.make(what, |device| device.create_texture(&descriptor))?;
+    Ok(Some(made.create_view(&Default::default())))
 }
 
 impl Stages {
@@ -71,11 +75,11 @@ impl Stages {
     ) -> Result<Self> {
         let load = |path: &str| Shader::load(path, variant);
         let target = |name: &str| texture(gpu, needs, name);
-        let (Some(color), Some(depth)) = (target("scene_color"), target("scene_depth")) else {
+        let (Some(color), Some(depth)) = (target("scene_color")?, target("scene_depth")?) else {
             unreachable!("every scene picture has these targets");
         };
-        let shadow_map = target("shadow_map");
-        let occluder_depth = target("occluder_depth");
+        let shadow_map = target("shadow_map")?;
+        let occluder_depth = target("occluder_depth")?;
         let shadow_sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("shadow_sampler"),
             mag_filter: wgpu::FilterMode::Linear,
@@ -93,8 +97,19 @@ impl Stages {
                     .map(|v| (name, wgpu::BindingResource::TextureView(v))),
             );
         }
-        let draw = |path: &str, vertex: &str, fragment: Option<&str>, style: DrawStyle| {
-            Draw::new(gpu, &load(path)?, vertex, fragment, style, buffers, &textures)
+        let draw = |vertex: &str, style: DrawStyle| {
+            let need = needs.draws.iter().find(|need| need.label == vertex);
+            let need = need.expect("a picture needs what it draws");
+            let fragment = need.fragment.as_deref();
+            Draw::new(
+                gpu,
+                &load(&need.shader)?,
+                vertex,
+                fragment,
+                style,
+                buffers,
+                &textures,
+            )
         };
         let compute =
             |path: &str, entry: &str| Pass::with_textures(gpu, &load(path)?, entry, buffers, &textures);
@@ -106,14 +121,9 @@ impl Stages {
         };
         let mut casts = Vec::new();
         if parts.shadows {
-            let round = parts.round_shadows.then_some("round_splat");
-            casts.push((
-                draw("render/cast_shadow", "cast_splat", round, style(STRIP, None))?,
-                4,
-                None,
-            ));
+            casts.push((draw("cast_splat", style(STRIP, None))?, 4, None));
             if parts.colliders {
-                let cast = draw("render/colliders", "cast_collider", None, style(LIST, None))?;
+                let cast = draw("cast_collider", style(LIST, None))?;
                 casts.push((cast, collider_vertices, Some(1)));
             }
         }
@@ -121,32 +131,14 @@ impl Stages {
         let over = Some(Blend::Over);
         let mut draws = Vec::new();
         if parts.colliders {
-            let solid = draw(
-                "render/colliders",
-                "place_collider",
-                Some("shade_collider"),
-                style(LIST, opaque),
-            )?;
+            let solid = draw("place_collider", style(LIST, opaque))?;
             draws.push((solid, collider_vertices, Some(1)));
         }
-        let (vertex, fragment) = if parts.spheres {
-            ("place_sphere", "shade_sphere")
-        } else {
-            ("place_disc", "fill_disc")
-        };
-        draws.push((
-            draw(parts.splat_shader(), vertex, Some(fragment), style(STRIP, opaque))?,
-            4,
-            None,
-        ));
+        let (splat, _) = parts.splat_entries();
+        draws.push((draw(splat, style(STRIP, opaque))?, 4, None));
         if parts.domain {
             let edges = if parts.three_dimensional { 12 } else { 4 };
-            let lines = draw(
-                "render/domain_box",
-                "place_domain_edge",
-                Some("draw_red"),
-                style(STRIP, opaque),
-            )?;
+            let lines = draw("place_domain_edge", style(STRIP, opaque))?;
             draws.push((lines, 4, Some(edges)));
         }
         if parts.slices {
@@ -154,25 +146,15 @@ impl Stages {
             let records = buffers.get("slice_record", "render/slices.wgsl")?.size() / 16;
             let slices = records.saturating_sub(1) as u32;
             let (sides, edges) = if parts.three_dimensional { (4, 12) } else { (1, 4) };
-            let fill = draw(
-                "render/slices",
-                "place_slice_side",
-                Some("fill_green"),
-                style(STRIP, over),
-            )?;
+            let fill = draw("place_slice_side", style(STRIP, over))?;
             draws.push((fill, 4, Some(slices * sides)));
-            let lines = draw(
-                "render/slices",
-                "place_slice_edge",
-                Some("edge_green"),
-                style(STRIP, over),
-            )?;
+            let lines = draw("place_slice_edge", style(STRIP, over))?;
             draws.push((lines, 4, Some(slices * edges)));
         }
         let occluders = match &occluder_depth {
             Some(view) => Some((
                 view.clone(),
-                draw("render/occluders", "place_occluder", None, style(STRIP, None))?,
+                draw("place_occluder", style(STRIP, None))?,
                 compute("render/occlusion", "find_block_depth")?,
             )),
             None => None,
@@ -200,10 +182,10 @@ impl Stages {
         encoder: &mut wgpu::CommandEncoder,
         picture: &Picture,
         looks: &[[f32; 4]],
-    ) {
-        upload(gpu, encoder, &self.picture, bytemuck::bytes_of(picture));
+    ) -> Result<()> {
+        upload(gpu, encoder, &self.picture, bytemuck::bytes_of(picture))?;
         if let Some(buffer) = &self.collider_look {
-            upload(gpu, encoder, buffer, bytemuck::cast_slice(looks));
+            upload(gpu, encoder, buffer, bytemuck::cast_slice(looks))?;
         }
         let [_, _, width, height] = picture.rectangle;
         if let Some((view, casts)) = &self.shadows {
@@ -226,18 +208,23 @@ impl Stages {
             picture.count,
         );
         dispatch(encoder, &self.resolve, width * height);
+        Ok(())
     }
 }
 
 /// Copies bytes in the order of the encoder's commands, so that several frames may share a submission.
-fn upload(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, buffer: &wgpu::Buffer, bytes: &[u8]) {
-    use wgpu::util::DeviceExt;
-    let staging = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+fn upload(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, buffer: &wgpu::Buffer, bytes: &[u8]) -> Result<()> {
+    let descriptor = wgpu::BufferDescriptor {
         label: Some("upload"),
-        contents: bytes,
-        usage: wgpu::BufferUsages::COPY_SRC,
-    });
-    encoder.copy_buffer_to_buffer(&staging, 0, buffer, 0, bytes.len() as u64);
+        size: bytes.len() as u64,
+        usage: wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    };
+    let what = || format!("buffer `upload` of {} bytes", descriptor.size);
+    let staging = gpu.make(what, |device| device.create_buffer(&descriptor))?;
+    gpu.queue.write_buffer(&staging, 0, bytes);
+    encoder.copy_buffer_to_buffer(&staging, 0, buffer, 0, descriptor.size);
+    Ok(())
 }
 
 fn dispatch(encoder: &mut wgpu::CommandEncoder, pass: &Pass, items: u32) {

@@ -71,6 +71,15 @@ impl Style {
         variant
     }
 
+    /// Vertex and fragment entry point of the splats.
+    pub fn splat_entries(&self) -> (&'static str, &'static str) {
+        if self.spheres {
+            ("place_sphere", "shade_sphere")
+        } else {
+            ("place_disc", "fill_disc")
+        }
+    }
+
     /// File of the splats.
     pub fn splat_shader(&self) -> &'static str {
         if self.spheres {

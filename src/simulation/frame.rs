@@ -37,6 +37,8 @@ pub struct Frame {
     pub searches: u32,
     /// How often the grid's buffers were made larger since the last frame.
     pub growths: u32,
+    /// Why neighbor lists, which the scene asks for, have been left out.
+    pub lists_left_out: Option<String>,
     /// RGBA, 8 bits each, sRGB, rows from the top without padding.
     pub pixels: Option<Vec<u8>>,
     pub statistics: Option<Statistics>,

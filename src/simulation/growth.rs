@@ -8,35 +8,34 @@ use super::passes::Passes;
 use crate::error::{Error, Result};
 use crate::gpu::readback;
 use crate::neighbors::layout::SearchState;
-use crate::neighbors::{self, Grid, Room};
+use crate::neighbors::{self, Grid, Room, lists};
 use crate::physics::layout::{Clock, Packed};
 use crate::plan::Plan;
+use crate::render::Renderer;
 
 impl Simulation {
     /// Looks whether the last search had room, and makes room until every submitted step is done.
     pub(super) fn settle(&mut self) -> Result<()> {
-        let listed = self.buffers.contains("list_state");
-        let follows = self.buffers.contains("search_state") && self.scene.domain.is_open();
-        if !listed && !follows && !neighbors::can_grow(&self.scene, &self.plan.grid) {
-            return Ok(());
-        }
         // Recorded steps are left out where lists stop serving, and where a search halts.
-        let mut left_out = listed;
+        let mut left_out = self.buffers.contains("list_state");
         loop {
-            let state = self.search_state()?;
-            if state.halted != 0 {
-                self.grow(Room {
-                    voxels: state.voxels,
-                    rows: state.rows,
-                    words: state.words,
-                    list: state.longest_list,
-                })?;
-                // The particles have moved already; what halted is the search behind that.
-                self.search()?;
-                left_out = true;
-                continue;
+            let listed = self.buffers.contains("list_state");
+            if self.can_halt(listed) {
+                let state = self.search_state()?;
+                if state.halted != 0 {
+                    self.grow(Room {
+                        voxels: state.voxels,
+                        rows: state.rows,
+                        words: state.words,
+                        list: state.longest_list,
+                    })?;
+                    // The particles have moved already; what halted is the search behind that.
+                    self.search()?;
+                    left_out = true;
+                    continue;
+                }
+                self.quarantined = state.quarantined;
             }
-            self.quarantined = state.quarantined;
             if !left_out {
                 return Ok(());
             }
@@ -61,6 +60,12 @@ impl Simulation {
         }
     }
 
+    /// Whether a search may find too little room, or particles that it does not follow.
+    fn can_halt(&self, listed: bool) -> bool {
+        let follows = self.buffers.contains("search_state") && self.scene.domain.is_open();
+        listed || follows || neighbors::can_grow(&self.scene, &self.plan.grid)
+    }
+
     fn search_state(&self) -> Result<SearchState> {
         self.read_one("search_state")
     }
@@ -71,16 +76,29 @@ impl Simulation {
         Ok(readback::read(&self.gpu, buffer, 1)?[0])
     }
 
-    /// Makes the grid's buffers as large as needed, with the scene's margin where the adapter allows it.
+    /// Makes the grid's buffers as large as needed, with the scene's margin where the adapter allows it. Goes on without
+    /// lists where these have become longer than it allows at all.
     fn grow(&mut self, needed: Room) -> Result<()> {
+        let limits = self.gpu.limits;
         let positions = match self.scene.neighbors.slicing_axis.fixed() {
             Some(_) => None,
             None => Some(self.read_next_positions()?),
         };
-        let grid = neighbors::grown_grid(&self.scene, self.plan.grid, needed, positions.as_deref());
-        let plan = |grid| Plan::with_grid(&self.scene, &self.gpu.limits, &self.plan.wanted, grid);
+        let has = self.plan.grid.room();
+        let mut grid = neighbors::grown_grid(&self.scene, self.plan.grid, needed, positions.as_deref());
+        if lists::wanted(&self.scene) {
+            let least = needed.list.max(has.list);
+            match lists::longest(&self.scene, least, grid.list_capacity, &limits) {
+                Some(length) => grid.list_capacity = length,
+                None => {
+                    let why = self.after_steps(lists::left_out(&self.scene, least, &limits))?;
+                    let done = self.leave_lists_out(why);
+                    return self.after_steps(done);
+                }
+            }
+        }
+        let plan = |grid| self.plan.with_grid(&self.scene, &limits, grid);
         let exact = || {
-            let has = self.plan.grid.room();
             plan(self.plan.grid.with_room(Room {
                 voxels: needed.voxels.max(has.voxels),
                 rows: needed.rows.max(has.rows),
@@ -88,15 +106,37 @@ impl Simulation {
                 list: needed.list.max(has.list),
             }))
         };
-        let plan = plan(grid).or_else(|_| exact()).map_err(|error| match error {
+        let plan = self.after_steps(plan(grid).or_else(|_| exact()))?;
+        self.growths += 1;
+        self.rebuild(plan)
+    }
+
+    /// Says of an error when more room was needed.
+    fn after_steps<T>(&self, result: Result<T>) -> Result<T> {
+        result.map_err(|error| match error {
             Error::Limit { what, help } => Error::Limit {
                 what: format!("the grid must grow after {} steps: {what}", self.submitted),
                 help,
             },
             other => other,
-        })?;
-        self.growths += 1;
-        self.rebuild(plan)
+        })
+    }
+
+    /// Goes on without neighbor lists, for which there is no room. The particles stand in the `next_` buffers.
+    pub(super) fn leave_lists_out(&mut self, why: String) -> Result<()> {
+        let scene = lists::without(&self.scene);
+        let grid = neighbors::grid_for(&scene, &self.read_next_positions()?);
+        let plan = Plan::without_lists(&scene, &self.gpu.limits, &self.plan.wanted, grid, why)?;
+        self.scene = scene;
+        // The passes are the same by name, and made of other shaders.
+        self.kernels.clear();
+        for buffer in &self.plan.buffers {
+            if !plan.buffers.iter().any(|kept| kept.name == buffer.name) {
+                self.buffers.remove(&buffer.name);
+            }
+        }
+        self.rebuild(plan)?;
+        self.write_measure()
     }
 
     /// Gives the search exactly the room that its last one needed, for comparing policies; normally buffers only grow.
@@ -108,22 +148,29 @@ impl Simulation {
             words: state.words,
             list: self.plan.grid.list_capacity,
         });
-        let plan = Plan::with_grid(&self.scene, &self.gpu.limits, &self.plan.wanted, grid)?;
+        let plan = self.plan.with_grid(&self.scene, &self.gpu.limits, grid)?;
         self.rebuild(plan)
     }
 
-    /// Takes over a plan that differs in its grid only. What the search made is gone; particles stay.
+    /// Takes over a plan with another grid. What the search made is gone; particles stay.
     pub(super) fn rebuild(&mut self, plan: Plan) -> Result<()> {
-        let grid_turned = plan.grid.axis != self.plan.grid.axis;
+        let empty = |grid: Grid| grid.with_room(Room::default());
+        let same_voxels = empty(plan.grid) == empty(self.plan.grid);
         for buffer in &plan.buffers {
             let before = self.plan.buffers.iter().find(|b| b.name == buffer.name);
-            if grid_turned && !buffer.fill.is_empty() || before.is_none_or(|b| b.bytes != buffer.bytes) {
+            if !same_voxels && !buffer.fill.is_empty() || before.is_none_or(|b| b.bytes != buffer.bytes) {
                 self.buffers.make(&self.gpu, buffer)?;
             }
         }
         self.passes = Passes::new(&self.gpu, &plan, &self.buffers, &mut self.kernels)?;
-        if let Some(renderer) = &mut self.renderer {
-            renderer.rebind(&self.gpu, &plan.variant, &self.buffers)?;
+        match (&mut self.renderer, plan.wanted.view) {
+            (Some(renderer), _) if same_voxels => {
+                renderer.rebind(&self.gpu, &plan.variant, &self.buffers)?;
+            }
+            (Some(renderer), Some(view)) => {
+                *renderer = Renderer::new(&self.gpu, &self.scene, &plan.variant, &mut self.buffers, view)?;
+            }
+            _ => {}
         }
         self.plan = plan;
         self.buffers.write(&self.gpu, "grid", 0, &[self.plan.grid])?;

@@ -19,7 +19,7 @@ pub use frame::{AdaptiveSteps, ColumnData, Frame, Statistics, Values, Voxels};
 pub use neighbor_lists::{NeighborCounts, NeighborLists, PairQuery};
 pub use state::State;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::gpu::readback::Ring;
 use crate::gpu::timing::Timer;
 use crate::gpu::{Buffers, Gpu};
@@ -87,6 +87,7 @@ struct Pending {
     quarantined: u32,
     searches: u32,
     growths: u32,
+    lists_left_out: Option<String>,
     pass_ms: Vec<(String, f64)>,
     /// As it was; it may grow or turn before the frame arrives.
     grid: Grid,
@@ -95,13 +96,20 @@ struct Pending {
 }
 
 impl Simulation {
+    /// # Errors
+    ///
+    /// Where the device has no room for the plan's buffers, or refuses a pass.
     pub fn new(gpu: Gpu, scene: &Scene, plan: &Plan) -> Result<Self> {
+        let scene = match plan.lists_left_out {
+            Some(_) => lists::without(scene),
+            None => scene.clone(),
+        };
         let mut buffers = Buffers::default();
         for buffer in &plan.buffers {
             buffers.make(&gpu, buffer)?;
         }
         let renderer = match plan.wanted.view {
-            Some(view) => Some(Renderer::new(&gpu, scene, &plan.variant, &mut buffers, view)?),
+            Some(view) => Some(Renderer::new(&gpu, &scene, &plan.variant, &mut buffers, view)?),
             None => None,
         };
         let mut kernels = Kernels::default();
@@ -120,14 +128,14 @@ impl Simulation {
             contact: scene.grains().map(|grains| grains.contact),
             happened: 0,
             submitted: 0,
-            pace: pace::at_start(scene),
+            pace: pace::at_start(&scene),
             growths: 0,
             searches: [0; 2],
             served: rounds::USUALLY_SERVED,
             last_look: 0,
             quarantined: 0,
             restored: (0, 0),
-            scene: scene.clone(),
+            scene,
             plan: plan.clone(),
             gpu,
         };
@@ -176,13 +184,7 @@ impl Simulation {
         if let Some(limits) = &scene.time.adaptive {
             buffers.write(gpu, "pace_limits", 0, &[physics::pace::limits(limits)])?;
         }
-        if buffers.contains("measure") {
-            let measure = match &scene.matter {
-                Matter::Grains(grains) => dem::measure(scene, grains, &self.plan.grid),
-                Matter::Fluid(_) => fluid::measure(scene),
-            };
-            buffers.write(gpu, "measure", 0, &[measure])?;
-        }
+        self.write_measure()?;
         if let Matter::Fluid(given) = &scene.matter {
             if buffers.contains("dfsph") {
                 buffers.write(gpu, "dfsph", 0, &[dfsph::settings(given)])?;
@@ -210,6 +212,18 @@ impl Simulation {
         Ok(())
     }
 
+    /// What figures are made with; it depends on the width of voxels.
+    fn write_measure(&self) -> Result<()> {
+        if !self.buffers.contains("measure") {
+            return Ok(());
+        }
+        let measure = match &self.scene.matter {
+            Matter::Grains(grains) => dem::measure(&self.scene, grains, &self.plan.grid),
+            Matter::Fluid(_) => fluid::measure(&self.scene),
+        };
+        self.buffers.write(&self.gpu, "measure", 0, &[measure])
+    }
+
     /// What events change. Takes effect with the next submission.
     fn write_parameters(&self, time_step: f64) -> Result<()> {
         let parameters = Parameters {
@@ -233,8 +247,17 @@ impl Simulation {
 
     /// Simulates up to the next frame (frame 0 is the initial state), has it observed and drawn, and sends it on its
     /// way. Returns an older frame when enough are under way.
+    ///
+    /// # Errors
+    ///
+    /// Where a particle goes wrong, and where the device does; then with frame and step.
     pub fn next_frame(&mut self) -> Result<Option<Frame>> {
         let index = self.next_frame;
+        let sent = self.make_frame(index);
+        self.dated(index, sent)
+    }
+
+    fn make_frame(&mut self, index: u32) -> Result<Option<Frame>> {
         if index == 0 {
             let walls = self.walls_as_particles();
             self.add_particles(&self.scene.particles.clone(), Some(&walls))?;
@@ -251,11 +274,27 @@ impl Simulation {
     }
 
     /// After the last frame: those that are still on their way, in order.
+    ///
+    /// # Errors
+    ///
+    /// As those of [`Simulation::next_frame`].
     pub fn finish_frame(&mut self) -> Result<Option<Frame>> {
-        match self.ring.receive(&self.gpu)? {
+        let received = self.ring.receive(&self.gpu);
+        match self.dated(self.next_frame.saturating_sub(1), received)? {
             Some((bytes, pending)) => self.receive(&bytes, pending).map(Some),
             None => Ok(None),
         }
+    }
+
+    /// Adds to an error of the device when it was found.
+    fn dated<T>(&self, frame: u32, result: Result<T>) -> Result<T> {
+        result.map_err(|error| match error {
+            Error::Device { what, help } => Error::Device {
+                what: format!("at frame {frame}, step {}: {what}", self.submitted),
+                help,
+            },
+            other => other,
+        })
     }
 
     /// Does what is due before a segment's first step, and sets obstacles on their way.
@@ -328,10 +367,15 @@ impl Simulation {
             return Ok(());
         }
         let timed = segment.ends_frame && self.timer.is_some();
+        let end = self.submitted + u64::from(segment.steps);
         if lists::wanted(&self.scene) {
-            return self.run_listed_steps(segment, timed);
+            self.run_listed_steps(segment, timed)?;
         }
-        self.submit_steps(u64::from(segment.steps - u32::from(timed)))?;
+        // Either there were no lists, or they have been left out on the way.
+        if lists::wanted(&self.scene) || self.submitted == end {
+            return Ok(());
+        }
+        self.submit_steps(end - self.submitted - u64::from(timed))?;
         self.settle()?;
         if timed {
             self.submitted += 1;
@@ -377,7 +421,7 @@ impl Simulation {
             self.encode(step, &mut compute)?;
         }
         drop(compute);
-        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.submit(encoder)?;
         Ok(())
     }
 
@@ -413,7 +457,7 @@ impl Simulation {
         if self.count > 0 {
             if self.timer.is_some() {
                 let cleared = std::mem::replace(&mut encoder, self.encoder("frame"));
-                self.gpu.queue.submit([cleared.finish()]);
+                self.gpu.submit(cleared)?;
                 pass_ms.extend(self.time(&self.passes.observe)?);
             } else {
                 let mut compute = encoder.begin_compute_pass(&Default::default());
@@ -441,6 +485,7 @@ impl Simulation {
             quarantined: self.quarantined,
             searches: self.searches_since_last_frame(index),
             growths: std::mem::take(&mut self.growths),
+            lists_left_out: self.plan.lists_left_out.clone(),
             pass_ms,
             grid: self.plan.grid,
             parts: parts.clone(),
@@ -563,6 +608,7 @@ impl Simulation {
             quarantined: pending.quarantined,
             searches: pending.searches,
             growths: pending.growths,
+            lists_left_out: pending.lists_left_out,
             pixels: by_name.get("frame_pixels").map(|pixels| pixels.to_vec()),
             statistics,
             columns: frame::columns(&self.scene, &self.plan, &by_name),

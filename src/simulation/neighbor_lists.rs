@@ -60,7 +60,7 @@ impl Simulation {
             ("neighbor_start", slots),
             ("neighbor_id", part),
         ] {
-            buffers.create(gpu, name, bytes, Usage::Storage);
+            buffers.create(gpu, name, bytes, Usage::Storage)?;
         }
         let radius = self.scene.search_radius() as f32;
         buffers.write(gpu, "search_radius", 0, &[radius])?;
@@ -75,7 +75,7 @@ impl Simulation {
         // No slot is listed yet.
         query.list.encode(&mut compute, 1);
         drop(compute);
-        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.submit(encoder)?;
         self.gpu.wait(None)?;
         Ok(query)
     }
@@ -92,7 +92,7 @@ impl Simulation {
         let mut compute = encoder.begin_compute_pass(&Default::default());
         query.count.encode(&mut compute, self.count);
         drop(compute);
-        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.submit(encoder)?;
         let read = |name| -> Result<Vec<u32>> {
             let buffer = self.buffers.get(name, "(host)")?;
             readback::read(&self.gpu, buffer, self.count as usize)

@@ -83,7 +83,7 @@ impl Simulation {
         }
         // With a time step of zero, the passes behind the search find accelerations and leave velocities alone.
         self.hold()?;
-        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.submit(encoder)?;
         self.search()?;
         self.settle()
     }

@@ -23,7 +23,8 @@ const MOVING: usize = 6;
 const LAST_STEP: usize = 4;
 
 impl Simulation {
-    /// Runs a segment to its end; where it is timed, the last two steps pass by pass.
+    /// Runs a segment to its end; where it is timed, the last two steps pass by pass. It stops where lists are left out
+    /// on the way, behind the steps that were submitted.
     pub(super) fn run_listed_steps(&mut self, segment: &Segment, timed: bool) -> Result<()> {
         let before = self.searches[0];
         let (timed, first) = (if timed { 2 } else { 0 }, self.submitted);
@@ -36,6 +37,9 @@ impl Simulation {
         while left(self) > timed {
             self.submit_steps(left(self) - timed)?;
             self.settle()?;
+            if !lists::wanted(&self.scene) {
+                return Ok(());
+            }
         }
         let mut times = Vec::new();
         while left(self) > 0 {
@@ -43,6 +47,10 @@ impl Simulation {
             self.begin_steps()?;
             let (step, search) = (self.time(&self.passes.step)?, self.time(&self.passes.start)?);
             self.settle()?;
+            if !lists::wanted(&self.scene) {
+                self.pass_ms = [step, search].concat();
+                return Ok(());
+            }
             times.push((step, search));
         }
         // The last step searches; the one before most likely does not, and then particles are taken back.

@@ -8,12 +8,11 @@ use glam::{DVec3, Vec3};
 
 use super::segments::{happened, segments};
 use super::{Frame, Simulation};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::gpu::readback;
-use crate::neighbors::Grid;
 use crate::neighbors::layout::ListState;
+use crate::neighbors::{Grid, lists};
 use crate::physics::layout::{Clock, Overflow, PACKED_BYTES, Pace, Packed, packed};
-use crate::plan::Plan;
 use crate::scene::model::Axis;
 use crate::scene::{Action, Dimensions, Scene};
 
@@ -37,6 +36,8 @@ pub struct State {
     pub dimensions: Dimensions,
     /// Where local coordinates have their zero, in the scene's own coordinates, metres.
     pub origin: DVec3,
+    /// Why neighbor lists had been left out, which changes the order of sums.
+    pub lists_left_out: Option<String>,
     /// Name and bytes of device buffers, in a fixed order.
     pub buffers: Vec<(String, Vec<u8>)>,
 }
@@ -55,6 +56,7 @@ impl State {
             particles: ids.len() as u32,
             dimensions: scene.dimensions,
             origin: scene.origin,
+            lists_left_out: None,
             buffers: vec![
                 ("position".into(), pack(&local)),
                 ("velocity".into(), pack(&velocity)),
@@ -165,7 +167,11 @@ impl Simulation {
         for (name, bytes) in particles.into_iter().chain(counters) {
             if self.buffers.contains(name) {
                 let buffer = self.buffers.get(name, "(host)")?;
-                buffers.push((name.to_owned(), readback::read::<u8>(&self.gpu, buffer, bytes)?));
+                let read = readback::read::<u8>(&self.gpu, buffer, bytes);
+                buffers.push((
+                    name.to_owned(),
+                    self.dated(self.next_frame.saturating_sub(1), read)?,
+                ));
             }
         }
         Ok(State {
@@ -173,6 +179,7 @@ impl Simulation {
             particles: self.count,
             dimensions: self.scene.dimensions,
             origin: self.scene.origin,
+            lists_left_out: self.plan.lists_left_out.clone(),
             buffers,
         })
     }
@@ -229,6 +236,9 @@ impl Simulation {
             let excess: Vec<f32> = density.iter().map(|state| state[0]).collect();
             self.buffers.write(&self.gpu, "next_excess", 0, &excess)?;
         }
+        if let (true, Some(why)) = (lists::can_be_left_out(&self.scene), &state.lists_left_out) {
+            self.leave_lists_out(why.clone())?;
+        }
         self.take_grid(state)?;
         if self.count > 0 {
             self.hold()?;
@@ -270,18 +280,19 @@ impl Simulation {
         if grid == self.plan.grid || Grid::new(&self.scene, axis).with_room(grid.room()) != grid {
             return Ok(());
         }
-        self.rebuild(Plan::with_grid(
-            &self.scene,
-            &self.gpu.limits,
-            &self.plan.wanted,
-            grid,
-        )?)
+        match self.plan.with_grid(&self.scene, &self.gpu.limits, grid) {
+            Ok(plan) => self.rebuild(plan),
+            // The state was made on an adapter that has more room.
+            Err(Error::Limit { .. }) => Ok(()),
+            Err(error) => Err(error),
+        }
     }
 
     /// Has the present state observed and drawn once more, as frame `index`, and sends it on its way. Returns an older
     /// frame when enough are under way.
     pub fn show(&mut self, index: u32) -> Result<Option<Frame>> {
-        self.send_frame(index)
+        let sent = self.send_frame(index);
+        self.dated(index, sent)
     }
 
     /// Writes bytes to the beginning of a buffer, where both are there.

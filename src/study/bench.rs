@@ -97,6 +97,9 @@ impl Bench {
     pub fn simulation(&self, scene: &Scene, wanted: &Wanted) -> Result<Simulation> {
         let gpu = Gpu::open(&self.choice, false)?;
         let plan = Plan::new(scene, &gpu.limits, wanted)?;
+        if let Some(why) = &plan.lists_left_out {
+            progress(&format!("{}: {why}", scene.name));
+        }
         Simulation::new(gpu, scene, &plan)
     }
 

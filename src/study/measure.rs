@@ -163,7 +163,7 @@ impl Measured {
     fn new(bench: &Bench, entry: &Entry, effort: Effort) -> Result<Self> {
         let scene = with_steps_per_frame(&entry.scene, effort.steps);
         let gpu = Gpu::open(&bench.choice, false)?;
-        let plan = Plan::new(&scene, &gpu.limits, &Wanted::default())?;
+        let plan = Plan::new(&scene, &gpu.limits, &Wanted::default())?.with_its_lists()?;
         let is_search = |shader: &str| shader.starts_with("cells/") || shader.starts_with("storage/");
         let search = plan
             .passes

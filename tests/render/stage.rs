@@ -116,11 +116,15 @@ pub fn buffers(gpu: &Gpu, scene: &Scene, particles: &Particles) -> Buffers {
                 }
             })
             .collect();
-        buffers.create(gpu, name, (packed.len() * 4) as u64, Usage::Storage);
+        buffers
+            .create(gpu, name, (packed.len() * 4) as u64, Usage::Storage)
+            .unwrap();
         buffers.write(gpu, name, 0, &packed).unwrap();
     }
     let ids: Vec<u32> = (0..particles.len() as u32).collect();
-    buffers.create(gpu, "id", (ids.len() * 4) as u64, Usage::Storage);
+    buffers
+        .create(gpu, "id", (ids.len() * 4) as u64, Usage::Storage)
+        .unwrap();
     buffers.write(gpu, "id", 0, &ids).unwrap();
     buffers
 }

@@ -101,7 +101,7 @@ fn search(gpu: &Gpu, scene: &Scene, view: Option<View>) -> Result<Frame> {
         view,
         ..Wanted::default()
     };
-    let plan = Plan::new(scene, &gpu.limits, &wanted)?;
+    let plan = Plan::new(scene, &gpu.limits, &wanted)?.with_its_lists()?;
     let mut simulation = Simulation::new(gpu.clone(), scene, &plan)?;
     let first = simulation.next_frame()?;
     let frame = first.map_or_else(|| simulation.finish_frame(), |frame| Ok(Some(frame)))?;

@@ -75,7 +75,7 @@ impl Subject {
         let last = scene.time.frames - 1;
         let plan = Plan::new(&scene, &gpu.limits, &Wanted::default())?;
         let mut progress = Progress::new(progress::Style::Bar, scene.time.frames);
-        for note in scene.notes.iter().chain(&plan.notes) {
+        for note in scene.notes.iter().chain(plan.told()) {
             progress.note(note);
         }
         let mut tally = Tally::start(scene.time.frames);

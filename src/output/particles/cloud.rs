@@ -85,6 +85,7 @@ pub mod samples {
             overflow: 0,
             quarantined: 0,
             growths: 0,
+            lists_left_out: None,
             searches: 0,
             pixels: None,
             voxels: None,

@@ -106,7 +106,7 @@ impl Settings {
         let said = [format!("this recording has {told}")].into_iter();
         let notes: Vec<_> = said
             .chain(scene.notes.clone())
-            .chain(plan.notes.clone())
+            .chain(plan.told().cloned())
             .collect();
         let mut sinks: Vec<Box<dyn Sink>> = Vec::new();
         for target in &self.targets {

@@ -171,7 +171,7 @@ fn plan_text(plan: &Plan) -> String {
         let pass = &row.pass;
         let _ = writeln!(text, "| {} | {} | {} |", pass.entry, pass.shader, pass.why);
     }
-    for note in &plan.notes {
+    for note in plan.told() {
         let _ = writeln!(text, "\n{note}");
     }
     text
