@@ -32,7 +32,7 @@ mod table;
 use absent::study;
 #[cfg(not(feature = "surface"))]
 use absent::surface;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, Parser, Subcommand};
 
 use crate::error::Result;
 
@@ -67,6 +67,11 @@ enum Command {
     Schema(schema::Args),
     Devices(devices::Args),
     Study(study::Args),
+}
+
+/// The command line, for what explains or completes it.
+pub fn command() -> clap::Command {
+    Cli::command()
 }
 
 /// Does what the program's arguments say. Ends the program after `--help`, and when they make no sense.

@@ -1,5 +1,6 @@
 //! Choosing an adapter and opening its device.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::fault::{Faults, made, quietly};
@@ -48,14 +49,18 @@ pub fn adapters() -> Vec<wgpu::Adapter> {
     pollster::block_on(instance.enumerate_adapters(backends))
 }
 
-/// What is told about an adapter.
-#[derive(Debug, Clone, Serialize)]
+/// What names an adapter.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Identity {
+    /// The adapter's name.
     pub name: String,
     /// `discrete`, `integrated`, `virtual`, `software` or `other`.
     pub kind: &'static str,
+    /// `vulkan`, `metal` or `dx12`.
     pub backend: String,
+    /// Name of the driver.
     pub driver: String,
+    /// Version of the driver.
     pub driver_info: String,
 }
 

@@ -1,5 +1,6 @@
 //! What an adapter allows, what a pass takes of it, and the refusal where that is too much.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::{Error, Result};
@@ -38,14 +39,17 @@ pub struct Limits {
 }
 
 /// What a pass or a draw takes of an adapter's limits.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Demand {
-    /// Storage buffers of the stage that binds most of them; so are the next three.
+    /// Storage buffers that one stage binds at most.
     pub storage_buffers: u32,
+    /// Uniform buffers that one stage binds at most.
     pub uniform_buffers: u32,
+    /// Textures that one stage samples at most.
     pub textures: u32,
+    /// Samplers that one stage binds at most.
     pub samplers: u32,
-    /// Resources of all kinds.
+    /// Resources of all kinds that it binds.
     pub bindings: u32,
     /// Threads of one workgroup; 0 for draws.
     pub threads: u32,

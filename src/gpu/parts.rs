@@ -1,19 +1,23 @@
 //! What plans are made of: buffers and passes, each with the reason why a scene needs it.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::buffers::Usage;
 
 /// A buffer that a plan asks for.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct BufferPlan {
+    /// Its name, the same in shaders and messages.
     pub name: String,
+    /// Its size, bytes.
     pub bytes: u64,
     #[serde(skip)]
     pub usage: Usage,
     /// What it holds before anything runs, over and over; empty for zeros.
     #[serde(skip)]
     pub fill: &'static [i32],
+    /// What it is for.
     pub why: String,
 }
 
@@ -56,30 +60,30 @@ impl BufferPlan {
 
 /// How many threads a pass runs. All but a fixed number come from the buffer `dispatch` on the device, so that a search
 /// without room can stop what follows it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Items {
-    /// One a particle that exists when the pass runs.
+    /// One per particle that exists when the pass runs.
     Particles,
-    /// One a voxel that the search has.
+    /// One per voxel that the search has.
     Voxels,
     /// For prefix sums over the voxels: a workgroup for each block of them.
     VoxelBlocks,
     /// One workgroup.
     Once,
-    /// One a particle, when particles are searched anew; with neighbor lists that is not every step.
+    /// One per particle, when particles are searched anew; with neighbor lists that is not every step.
     SearchedParticles,
     /// One workgroup, when particles are searched anew.
     SearchedOnce,
-    /// One a particle, behind a move after which the lists of an earlier search serve.
+    /// One per particle, behind a move after which the lists of an earlier search serve.
     KeptParticles,
-    /// One a particle, when lists serve and steps are left to do.
+    /// One per particle, when lists serve and steps are left to do.
     MovingParticles,
-    /// The same, for moves from the `next_` buffers to those without ([`PassPlan::flipped`]).
+    /// The same, for moves from the `next_` buffers to those without (see `flipped`).
     ReturningParticles,
-    /// One a particle, when the last move left them in the `next_` buffers and their lists serve.
+    /// One per particle, when the last move left them in the `next_` buffers and their lists serve.
     AwayParticles,
-    /// One a particle, when the last move returned them and they are searched anew.
+    /// One per particle, when the last move returned them and they are searched anew.
     ReturnedParticles,
     /// One a particle, as long as the loop of this number goes on.
     Loop(u32),
@@ -123,11 +127,13 @@ pub struct Repeat {
 }
 
 /// A compute pass that a plan asks for. Its label is its entry point: a verb.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PassPlan {
     /// File below `shaders/`, without its ending.
     pub shader: String,
+    /// Its function there, which is also the name of the pass.
     pub entry: String,
+    /// How many threads it has.
     pub items: Items,
     /// Which one it is, where a pass runs several times: `pass_index` of `common/pass_index.wgsl`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -138,6 +144,7 @@ pub struct PassPlan {
     /// Whether particles' buffers and their `next_` buffers change places.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub flipped: bool,
+    /// What it does.
     pub why: String,
 }
 

@@ -2,7 +2,10 @@
 
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
 use serde::Serialize;
+use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use super::memory::peak_resident_bytes;
@@ -16,61 +19,95 @@ use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::scene::model::SceneFile;
 
-#[derive(Serialize)]
+/// A run: what was run, on what, with which result, and what every file is.
+#[derive(Serialize, JsonSchema)]
 pub struct Manifest<'a> {
+    /// `sliceflow`.
     pub program: &'static str,
+    /// Version of the program.
     pub version: &'static str,
     #[serde(flatten)]
     pub status: Status,
+    /// The program's arguments, as they were given.
     pub command_line: &'a [String],
-    /// UTC, RFC 3339.
+    /// When the run began, in UTC (RFC 3339).
     pub started: String,
-    /// UTC, RFC 3339; null while the run goes on.
+    /// When the run ended, in UTC (RFC 3339); null while it goes on.
     pub finished: Option<String>,
     #[serde(flatten)]
     pub tally: Tally,
-    /// Of the program in this sitting; null where the system does not say.
+    /// The most memory that the program took, bytes, since the run was started or resumed; null where the system does not
+    /// say.
     pub peak_resident_bytes: Option<u64>,
+    /// Every kind of file that the run writes.
     pub files: Vec<Files>,
+    /// The adapter that computed.
     pub adapter: Identity,
+    /// Particles when every emitter and event has happened.
     pub particles: u32,
+    /// Seed of every random choice.
     pub seed: u64,
+    /// Frames per simulated second.
     pub fps: f64,
+    /// Length of a step, seconds.
     pub step_s: f64,
+    /// Steps from one frame to the next.
     pub steps_per_frame: u32,
+    /// What limits the length of a step.
     pub step_limited_by: &'static str,
-    /// Whether steps have lengths of their own; `step_s` and `steps_per_frame` are then what was expected.
+    /// Whether the device chooses the length of each step; `step_s` and `steps_per_frame` are then what was expected.
     pub step_adaptive: bool,
-    /// What was decided or dropped while the scene was read.
+    /// What was decided or left out while the scene was read.
     pub notes: &'a [String],
-    /// Of `scene`, as JSON without spaces.
+    /// SHA-256 of `scene`, as JSON without spaces.
     pub scene_sha256: String,
+    /// The scene, with every value that was left out filled in.
     pub scene: &'a SceneFile,
-    /// For `sliceflow resume`; absent where nothing was simulated.
+    /// What `sliceflow resume` needs to make the run again; absent where nothing was simulated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recipe: Option<Recipe>,
-    /// The run whose particles were drawn.
+    /// Folder of the run whose particles `sliceflow render` drew; absent elsewhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drawn_from: Option<PathBuf>,
+    /// Every buffer and pass on the device.
     pub plan: &'a Plan,
     #[serde(skip)]
     path: PathBuf,
 }
 
-#[derive(Debug, Clone, Serialize)]
+/// How the run went.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 #[serde(tag = "status", rename_all = "snake_case")]
 pub enum Status {
+    /// It goes on, or the program was killed.
     Running,
+    /// Every frame is there.
     Finished,
+    /// It was stopped by Ctrl-C; what was finished is on disk.
     Interrupted,
-    Failed { message: String },
+    /// It ended with an error.
+    Failed {
+        /// The error.
+        message: String,
+    },
 }
 
 /// One kind of file.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Files {
+    /// Its name; NNNNNN stands for the number of a frame.
     pub name: String,
+    /// What it holds.
     pub about: String,
+}
+
+/// The JSON schema of `run.json`.
+pub fn schema() -> Value {
+    let written = SchemaSettings::draft2020_12().for_serialize();
+    written
+        .into_generator()
+        .into_root_schema_for::<Manifest>()
+        .to_value()
 }
 
 impl<'a> Manifest<'a> {

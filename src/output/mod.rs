@@ -43,6 +43,7 @@ use std::sync::Arc;
 pub use disk::write as write_file;
 pub use estimate::{checkpoints as checkpoint_estimate, disk_bytes};
 pub use keeper::{Checkpoints, Every};
+pub use manifest::schema as manifest_schema;
 pub use particles::{
     DEFAULT_COLUMNS, FORMATS as PARTICLE_FORMATS, Format as ParticleFormat, ParticleOutput, columns_named,
 };
@@ -52,6 +53,7 @@ pub use recipe::Recorded;
 pub use redraw::redraw;
 pub use resume::{branch, resume};
 pub use run::{Outputs, Settings, run};
+pub use statistics::schema as statistics_schema;
 pub use tally::Tally;
 pub use video::VideoOutput;
 

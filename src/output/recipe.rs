@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -9,12 +10,13 @@ use crate::error::{Error, Result};
 use crate::scene::{Scene, library, load};
 
 /// A run, as it was asked for.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Recipe {
-    /// Stays with a run when it is resumed or made longer; a variant gets its own.
+    /// The run's identity, which stays when it is resumed or made longer; a variant gets its own.
     pub run_id: String,
     /// The scene file's text, to the letter, so that every number is read as it was.
     pub scene_text: String,
+    /// Name of the scene file, as it was given.
     pub scene_file: String,
     /// Where paths in the scene start from; null for the scenes that ship.
     pub scene_folder: Option<PathBuf>,
@@ -33,9 +35,12 @@ pub struct Recipe {
     pub variant_of: Option<PathBuf>,
 }
 
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+/// A mesh or particle file that the scene names.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Input {
+    /// Its path, as the scene writes it.
     pub file: String,
+    /// SHA-256 of what it held when the run began.
     pub sha256: String,
 }
 

@@ -5,6 +5,8 @@ use std::io::{ErrorKind, Write as _};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -52,37 +54,46 @@ impl Sink for StatisticsFile {
     }
 }
 
-#[derive(Serialize)]
+/// A frame in `stats.jsonl`.
+#[derive(Serialize, JsonSchema)]
 struct Line {
+    /// Number of the frame, from 0.
     frame: u32,
+    /// Simulated time, seconds.
     time_s: f64,
-    /// Since the run began.
+    /// Steps since the run began.
     steps: u64,
-    /// The mean where steps are adaptive.
+    /// Length of the steps since the last frame, or their mean where they differ, seconds.
     step_s: f64,
-    /// What limited most of the steps since the last frame.
+    /// What limited most of these steps.
     step_limited_by: &'static str,
     #[serde(flatten)]
     adaptive: Option<Adaptive>,
+    /// Particles in the scene at this time.
     particles: u32,
+    /// How often a particle found its voxel of a `pool` full, in all searches since the last frame; contacts are then
+    /// missed. Zero is what one wants, and with every other storage it is.
     overflow_since_last_frame: u64,
+    /// Particles farther from the domain than the neighbor search follows; they find no neighbors.
     quarantined: u32,
     #[serde(flatten)]
     measured: Option<Measured>,
-    /// Of the solver `dfsph`, since the last frame.
+    /// With the solver `dfsph`: how its loops went since the last frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pressure_solver: Option<PressureSolver>,
-    /// Sum over the frame's steps, by pass; only with `--timings`.
+    /// With `--timings`: milliseconds that each pass of a step takes, and those that a frame adds, by the pass's name.
     #[serde(skip_serializing_if = "Map::is_empty")]
     pass_ms: Map<String, Value>,
 }
 
-/// Of the steps since the last frame.
-#[derive(Serialize)]
+/// Where `time.adaptive` is set: of the steps since the last frame.
+#[derive(Serialize, JsonSchema)]
 struct Adaptive {
+    /// The shortest of them, seconds.
     step_min_s: f64,
+    /// The longest of them, seconds.
     step_max_s: f64,
-    /// How many each term limited.
+    /// How many of them each limit shortened, by the limit's name.
     steps_limited_by: Map<String, Value>,
 }
 
@@ -100,19 +111,23 @@ impl From<&AdaptiveSteps> for Adaptive {
 }
 
 /// How the loops of an iterative pressure solver went.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct PressureSolver {
-    /// Iterations of a step, on average and at most.
+    /// Iterations of the loop of density in a step, on average.
     density_iterations_mean: f64,
+    /// Its iterations in the step that took most.
     density_iterations_max: u32,
     /// What the worst step stopped at: mean of max(ρ/ρ₀ − 1, 0) over the particles.
     density_error_max: f64,
-    /// Steps that stopped at the largest number of iterations.
+    /// Steps that stopped at `fluid.max_iterations` before the density was good enough.
     density_unconverged_steps: u32,
+    /// Iterations of the loop of divergence in a step, on average.
     divergence_iterations_mean: f64,
+    /// Its iterations in the step that took most.
     divergence_iterations_max: u32,
-    /// The same, of what a step's divergence adds to ρ/ρ₀.
+    /// What the worst step stopped at: mean of what its divergence adds to ρ/ρ₀.
     divergence_error_max: f64,
+    /// Steps that stopped at `fluid.max_iterations` before the divergence was good enough.
     divergence_unconverged_steps: u32,
 }
 
@@ -132,31 +147,46 @@ impl From<&Convergence> for PressureSolver {
     }
 }
 
-#[derive(Serialize)]
+/// Figures over all particles and voxels; absent with `--no-statistics`.
+#[derive(Serialize, JsonSchema)]
 struct Measured {
+    /// Energy of motion of all particles, joules (per metre of depth in 2D).
     kinetic_energy_j: f64,
+    /// Energy of height of all particles, joules, zero at the domain's lower corner.
     potential_energy_j: f64,
+    /// Speed of the fastest particle, m/s.
     max_speed_m_per_s: f64,
-    /// As a share of the radius.
+    /// Deepest overlap of two grains, as a share of the radius; above 0.2 grains are too soft.
     max_overlap: f64,
+    /// Contacts of grains, or neighbors in a fluid, as each particle sees them: a pair counts twice.
     contacts: u64,
-    /// Of a fluid, |ρ/ρ₀ − 1|.
+    /// Fluids: mean of |ρ/ρ₀ − 1| over the particles.
     #[serde(skip_serializing_if = "Option::is_none")]
     density_error_mean: Option<f64>,
+    /// Fluids: greatest |ρ/ρ₀ − 1|.
     #[serde(skip_serializing_if = "Option::is_none")]
     density_error_max: Option<f64>,
-    /// Particles of a fluid whose negative pressures are clamped.
+    /// Fluids whose negative pressures are clamped: particles whose pressure counts as zero therefore.
     #[serde(skip_serializing_if = "Option::is_none")]
     clamped_pressures: Option<u32>,
+    /// Those of them whose density is the lowest that is allowed.
     #[serde(skip_serializing_if = "Option::is_none")]
     clamped_densities: Option<u32>,
+    /// Voxels that the neighbor search has memory for.
     voxels_allocated: u32,
+    /// Voxels with at least one particle.
     voxels_occupied: u32,
+    /// Voxels with one particle.
     voxels_with_1: u32,
+    /// Voxels with two particles.
     voxels_with_2: u32,
+    /// Voxels with three particles.
     voxels_with_3: u32,
+    /// Voxels with four particles.
     voxels_with_4: u32,
+    /// Voxels with five particles or more.
     voxels_with_more: u32,
+    /// Particles that found their voxel of a `pool` full in the search for this frame.
     overflow: u32,
 }
 
@@ -183,6 +213,12 @@ impl From<&Statistics> for Measured {
             overflow: from.overflow,
         }
     }
+}
+
+/// The JSON schema of a line.
+pub fn schema() -> Value {
+    let written = SchemaSettings::draft2020_12().for_serialize();
+    written.into_generator().into_root_schema_for::<Line>().to_value()
 }
 
 fn line(frame: &Frame) -> String {

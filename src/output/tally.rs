@@ -2,20 +2,23 @@
 
 use std::time::Instant;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::simulation::frame::Frame;
 
-#[derive(Debug, Clone, Copy, Serialize)]
+/// How far a run has come, and how fast.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct Tally {
-    /// Simulated and handed to the sinks.
+    /// Frames that were simulated and handed to the outputs.
     pub frames_done: u32,
-    /// Of the whole run.
+    /// Frames of the whole run.
     pub frames: u32,
-    /// Of all sittings.
+    /// Time that the run took, seconds; of a run that was resumed, all its parts together.
     pub wall_s: f64,
     /// Particles times steps.
     pub particle_steps: u64,
+    /// Particles times steps, per second of `wall_s`.
     pub particle_steps_per_s: f64,
     /// Of earlier sittings.
     #[serde(skip)]

@@ -6,6 +6,7 @@ mod fit;
 
 use std::collections::BTreeSet;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::{Error, Result};
@@ -37,7 +38,7 @@ pub struct Wanted {
 }
 
 /// When a pass runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Phase {
     /// When particles come; with neighbor lists, also when these no longer serve.
@@ -49,8 +50,9 @@ pub enum Phase {
 }
 
 /// A pass and when it runs.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct PassRow {
+    /// When it runs.
     pub phase: Phase,
     #[serde(flatten)]
     pub pass: PassPlan,
@@ -58,39 +60,53 @@ pub struct PassRow {
     pub demand: Demand,
 }
 
-#[derive(Debug, Clone, Serialize)]
+/// A texture that pictures need.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct TexturePlan {
+    /// Its name.
     pub name: String,
+    /// Its size, bytes.
     pub bytes: u64,
     /// Width and height, pixels.
     pub size: [u32; 2],
+    /// What it is for.
     pub why: String,
 }
 
-#[derive(Debug, Clone, Serialize)]
+/// Something that is drawn into a frame.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct DrawPlan {
+    /// Its name.
     pub label: String,
     /// The entry point that shades what is drawn, where there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fragment: Option<String>,
+    /// File below `shaders/`, without its ending.
     pub shader: String,
+    /// What it draws.
     pub why: String,
     #[serde(flatten)]
     pub demand: Demand,
 }
 
 /// Everything that a run will do on the device.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Plan {
+    /// The scene's name.
     pub scene: String,
+    /// 2 or 3.
     pub dimensions: usize,
-    /// Particles at the start, and when every event has happened.
+    /// Particles at the start.
     pub particles: usize,
+    /// Particles when every emitter and event has happened.
     pub capacity: u32,
-    /// Seconds, and what limits it.
+    /// Length of a step, seconds.
     pub time_step_s: f64,
+    /// What limits the length of a step.
     pub time_step_limited_by: String,
+    /// Steps from one frame to the next.
     pub steps_per_frame: u32,
+    /// Frames, the first state included.
     pub frames: u32,
     /// Voxels of the whole domain.
     pub domain_voxels: u64,
@@ -98,10 +114,15 @@ pub struct Plan {
     pub picture_bytes: u64,
     /// Bytes of a frame's particle columns.
     pub column_bytes: u64,
+    /// Buffers on the device.
     pub buffers: Vec<BufferPlan>,
+    /// Textures on the device.
     pub textures: Vec<TexturePlan>,
+    /// Compute passes, in the order in which they run.
     pub passes: Vec<PassRow>,
+    /// What is drawn into a frame, in order.
     pub draws: Vec<DrawPlan>,
+    /// What was decided where there was a choice.
     pub notes: Vec<String>,
     /// Why there are no neighbor lists where the scene asks for them.
     pub lists_left_out: Option<String>,

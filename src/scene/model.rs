@@ -44,27 +44,36 @@ pub struct SceneFile {
     /// Seed of every random choice (jitter, random packings).
     #[serde(default)]
     pub seed: u64,
+    /// The box that the particles live in, and what its sides do.
     pub domain: Domain,
-    /// Metres per second squared.
+    /// Acceleration that acts on every particle, m/s²; 9.81 downwards when left out.
     #[serde(default = "earth")]
     pub gravity: Coordinates,
-    /// What the particles are: grains, or a fluid.
+    /// Equal grains: particles that touch. A scene has grains or a fluid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub grains: Option<Grains>,
+    /// A fluid, or several of different density. A scene has grains or a fluid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fluid: Option<Fluid>,
+    /// Grains or fluid that are there from the start.
     #[serde(default)]
     pub bodies: Vec<Body>,
+    /// Obstacles, at rest or moving.
     #[serde(default)]
     pub colliders: Vec<Collider>,
+    /// Places where particles flow in.
     #[serde(default)]
     pub emitters: Vec<Emitter>,
+    /// What happens at given times.
     #[serde(default)]
     pub events: Vec<Event>,
+    /// How neighbors are found. It changes speed and memory, not what is found, unless a `pool` overflows.
     #[serde(default)]
     pub neighbors: Neighbors,
+    /// How long the scene is, and how long frames and steps are.
     #[serde(default)]
     pub time: Time,
+    /// How frames look.
     #[serde(default)]
     pub render: Render,
 }
@@ -141,24 +150,31 @@ pub struct Domain {
     #[serde(default = "half")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub restitution: f64,
-    /// Velocity of a side's surface, which itself stays where it is, m/s: a lid that drives the fluid.
+    /// Velocities of the sides' surfaces, m/s, while the sides stay where they are: a lid that drives the fluid.
     #[serde(default, skip_serializing_if = "SideVelocities::is_empty")]
     pub side_velocities: SideVelocities,
 }
 
+/// Velocities of the surfaces of the domain's sides; those that are left out rest.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SideVelocities {
+    /// Velocity of the surface at the lower end of x, m/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub x_min: Option<Coordinates>,
+    /// Velocity of the surface at the upper end of x, m/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub x_max: Option<Coordinates>,
+    /// Velocity of the surface at the lower end of y, m/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y_min: Option<Coordinates>,
+    /// Velocity of the surface at the upper end of y, m/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y_max: Option<Coordinates>,
+    /// Velocity of the surface at the lower end of z, m/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub z_min: Option<Coordinates>,
+    /// Velocity of the surface at the upper end of z, m/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub z_max: Option<Coordinates>,
 }
@@ -201,19 +217,26 @@ pub enum Wall {
     Periodic,
 }
 
+/// What single sides of the domain do; those that are left out do what `walls` says.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sides {
+    /// What the side at the lower end of x does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub x_min: Option<Wall>,
+    /// What the side at the upper end of x does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub x_max: Option<Wall>,
+    /// What the side at the lower end of y does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y_min: Option<Wall>,
+    /// What the side at the upper end of y does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y_max: Option<Wall>,
+    /// What the side at the lower end of z does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub z_min: Option<Wall>,
+    /// What the side at the upper end of z does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub z_max: Option<Wall>,
 }
@@ -223,7 +246,7 @@ pub struct Sides {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Grains {
-    /// Metres.
+    /// Radius of every grain, metres.
     #[schemars(range(min = 1e-9, max = 1e6))]
     pub radius: f64,
     /// Density of a grain's material, kg/m³ (a 2D grain is a disc one metre thick).
@@ -237,10 +260,11 @@ pub struct Grains {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e12))]
     pub damping: Option<f64>,
-    /// Speed after over speed before a head-on collision; sets η for two grains and for a wall so that both give it.
+    /// Speed after a head-on collision over speed before it; sets η for two grains and for a wall so that both give it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.001, max = 1.0))]
     pub restitution: Option<f64>,
+    /// Which part of the relative velocity the dashpot resists.
     #[serde(default)]
     pub dashpot: Dashpot,
     /// Force against the tangential relative velocity at a contact (Green 2012), N·s/m.
@@ -272,12 +296,13 @@ pub enum Dashpot {
     Normal,
 }
 
-/// Grains that are there from the start.
+/// Grains or fluid that are there from the start.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Body {
+    /// The space that its particles fill.
     pub shape: Shape,
-    /// Metres per second; zero when left out. A particle file's own velocities are added to it.
+    /// Velocity at the start, m/s; zero when left out. A particle file's own velocities are added to it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub velocity: Option<Coordinates>,
     /// A flow of known form, added to `velocity`; for fluids.
@@ -286,9 +311,10 @@ pub struct Body {
     /// Pressure at the start; for fluids whose density follows `continuity`.
     #[serde(default)]
     pub pressure: StartPressure,
-    /// One of `fluid.materials`.
+    /// Name of one of `fluid.materials`; the first when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
+    /// How its particles stand at the start.
     #[serde(default)]
     pub arrangement: Arrangement,
     /// Distance of neighbors on the lattice, metres; a grain's diameter when left out.
@@ -309,6 +335,7 @@ fn quarter() -> f64 {
     0.25
 }
 
+/// How a body's particles stand at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Arrangement {
@@ -345,41 +372,51 @@ pub enum StartPressure {
     Hydrostatic,
 }
 
-/// Where a body's grains are.
+/// The space that a body's particles fill.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Shape {
+    /// A box whose sides follow the axes; a rectangle in 2D.
     Box {
+        /// Lower corner, metres.
         min: Coordinates,
+        /// Upper corner, metres.
         max: Coordinates,
     },
     /// A ball; a disc in 2D.
     Sphere {
+        /// Center, metres.
         center: Coordinates,
+        /// Radius, metres.
         #[schemars(range(min = 1e-9, max = 1e6))]
         radius: f64,
     },
     /// What lies between two circles, filled ring by ring; 2D only.
     Ring {
+        /// Center of both circles, metres.
         center: Coordinates,
+        /// Radius of the inner circle, metres.
         #[schemars(range(min = 1e-9, max = 1e6))]
         inner: f64,
+        /// Radius of the outer circle, metres.
         #[schemars(range(min = 1e-9, max = 1e6))]
         outer: f64,
     },
-    /// 3D only.
+    /// A cylinder in any direction; 3D only.
     Cylinder {
         /// Center of the first end, metres.
         from: Coordinates,
         /// Center of the other end, metres.
         to: Coordinates,
+        /// Radius, metres.
         #[schemars(range(min = 1e-9, max = 1e6))]
         radius: f64,
     },
-    /// A closed triangle mesh (OBJ, PLY, STL) filled with grains; 3D only.
+    /// The inside of a closed triangle mesh (OBJ, PLY, STL); 3D only.
     Mesh {
         /// Path, relative to the scene file.
         file: String,
+        /// Size, turn and place of the mesh.
         #[serde(default)]
         placement: Placement,
     },
@@ -387,6 +424,7 @@ pub enum Shape {
     Particles {
         /// Path, relative to the scene file.
         file: String,
+        /// Size, turn and place of the particles.
         #[serde(default)]
         placement: Placement,
     },
@@ -396,15 +434,16 @@ pub enum Shape {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Placement {
+    /// Factor on every length of the file; 0.01 reads centimetres.
     #[schemars(range(min = 1e-9, max = 1e9))]
     pub scale: f64,
     /// Three factors along the file's own x, y and z, above zero, besides `scale`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stretch: Option<Coordinates>,
-    /// Degrees about x, then y, then z.
+    /// Turns about x, then y, then z, degrees.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotate: Option<Coordinates>,
-    /// Metres.
+    /// Where it moves after that, metres.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub translate: Option<Coordinates>,
 }
@@ -420,15 +459,16 @@ impl Default for Placement {
     }
 }
 
-/// An obstacle; grains meet it with the same contact law as each other.
+/// An obstacle. Grains meet it with the same contact law as each other; a fluid, as it meets walls.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Collider {
-    /// For events that move it.
+    /// Name, for events that move it.
     #[serde(default)]
     pub name: String,
+    /// The space that it takes.
     pub shape: ColliderShape,
-    /// Piecewise linear motion; before the first and after the last point it rests.
+    /// Motion along straight lines from point to point; before the first and after the last point it rests.
     #[serde(default)]
     pub path: Vec<PathPoint>,
     /// How its surface turns about the shape's center while the shape stays where it is, rad/s, counter-clockwise
@@ -436,7 +476,7 @@ pub struct Collider {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1e9, max = 1e9))]
     pub spin: Option<f64>,
-    /// `#rrggbb`.
+    /// Color in pictures, `#rrggbb`.
     #[serde(default = "steel")]
     pub color: String,
     /// Whether frames show it.
@@ -451,20 +491,29 @@ fn yes() -> bool {
     true
 }
 
+/// The space that an obstacle takes.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum ColliderShape {
     /// Solid on the side that the normal points away from.
     Plane {
+        /// A point of the plane, metres.
         point: Coordinates,
+        /// Direction out of the solid, of any length.
         normal: Coordinates,
     },
+    /// A box whose sides follow the axes; a rectangle in 2D.
     Box {
+        /// Lower corner, metres.
         min: Coordinates,
+        /// Upper corner, metres.
         max: Coordinates,
     },
+    /// A ball; a disc in 2D.
     Sphere {
+        /// Center, metres.
         center: Coordinates,
+        /// Radius, metres.
         #[schemars(range(min = 1e-9, max = 1e6))]
         radius: f64,
         /// Solid outside instead of inside: a round vessel.
@@ -475,38 +524,41 @@ pub enum ColliderShape {
     Mesh {
         /// Path, relative to the scene file.
         file: String,
+        /// Size, turn and place of the mesh.
         #[serde(default)]
         placement: Placement,
     },
 }
 
+/// Where a collider is at a time.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PathPoint {
-    /// Seconds.
+    /// When, seconds.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub at: f64,
-    /// Metres from where the collider's shape places it.
+    /// Way from where the collider's shape places it, metres.
     pub offset: Coordinates,
 }
 
-/// A disc (a line in 2D) that lets grains in, layer by layer, one spacing apart.
+/// A disc (a line in 2D) that lets particles in, layer by layer, one spacing apart.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Emitter {
-    /// For events that switch it.
+    /// Name, for events that switch it.
     pub name: String,
+    /// Center of the disc, metres.
     pub center: Coordinates,
-    /// Metres; of the disc.
+    /// Radius of the disc, metres.
     #[schemars(range(min = 1e-9, max = 1e6))]
     pub radius: f64,
-    /// Metres per second; grains start with it, and the disc stands across it.
+    /// Velocity with which particles come, m/s; the disc stands across it.
     pub velocity: Coordinates,
-    /// Distance of particles, metres; a grain's diameter, and a tenth more, or a fluid's spacing when left out.
+    /// Distance of particles, metres; 1.1 times a grain's diameter, or the fluid's spacing, when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-9, max = 1e6))]
     pub spacing: Option<f64>,
-    /// One of `fluid.materials`.
+    /// Name of one of `fluid.materials`; the first when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Whether it flows from the start; events switch it.
@@ -518,7 +570,7 @@ pub struct Emitter {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Event {
-    /// Seconds.
+    /// When, seconds.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub at: f64,
     /// New values of parameters.
@@ -535,32 +587,34 @@ pub struct Event {
     pub move_collider: Option<Move>,
 }
 
+/// New values of parameters; those that are left out stay as they are.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Change {
-    /// Metres per second squared.
+    /// As `gravity`, m/s².
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<Coordinates>,
-    /// N/m.
+    /// As `grains.spring`, N/m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-12, max = 1e15))]
     pub spring: Option<f64>,
-    /// N·s/m.
+    /// As `grains.damping`, N·s/m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e12))]
     pub damping: Option<f64>,
+    /// As `grains.restitution`: speed after a head-on collision over speed before it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.001, max = 1.0))]
     pub restitution: Option<f64>,
-    /// N·s/m.
+    /// As `grains.shear`, N·s/m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e12))]
     pub shear: Option<f64>,
-    /// N/m.
+    /// As `grains.attraction`, N/m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e12))]
     pub attraction: Option<f64>,
-    /// 1/s.
+    /// As `grains.global_damping`, 1/s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub global_damping: Option<f64>,
@@ -584,30 +638,37 @@ impl Change {
     }
 }
 
+/// A ball of grains that appears and falls.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Drop {
+    /// Center of the ball, metres.
     pub center: Coordinates,
-    /// Metres; of the ball.
+    /// Radius of the ball, metres.
     #[schemars(range(min = 1e-9, max = 1e6))]
     pub radius: f64,
-    /// Metres per second; zero when left out.
+    /// Its velocity, m/s; zero when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub velocity: Option<Coordinates>,
 }
 
+/// An emitter that begins or ends to flow.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Switch {
+    /// Name of the emitter.
     pub name: String,
+    /// Whether it flows from now on.
     pub on: bool,
 }
 
+/// A collider that moves from where it is.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Move {
+    /// Name of the collider.
     pub collider: String,
-    /// Metres, from where it is and on top of what its path goes on to do.
+    /// How far, metres, on top of what its path goes on to do.
     pub by: Coordinates,
     /// Seconds that the move takes.
     #[schemars(range(min = 1e-9, max = 1e9))]
@@ -618,7 +679,9 @@ pub struct Move {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Neighbors {
+    /// Which voxels there are, and how one is found in memory.
     pub addressing: Addressing,
+    /// How a voxel keeps its particles.
     pub storage: Storage,
     /// The axis across which slices are cut; y when left out, as in Harada 2007. With `auto` that with the fewest
     /// voxels, chosen again when the grid has to grow.
@@ -627,7 +690,7 @@ pub struct Neighbors {
     pub regions: bool,
     /// Width of a voxel.
     pub cell: Cell,
-    /// Indices that a voxel of a `pool` can hold.
+    /// How many particles' indices a voxel of a `pool` can hold.
     #[schemars(range(min = 1, max = 64))]
     pub slots: u32,
     /// With more than 0, each particle keeps a list of its neighbors, which reaches farther than the search radius by
@@ -664,6 +727,7 @@ impl Default for Neighbors {
     }
 }
 
+/// Which voxels there are, and how one is found in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Addressing {
@@ -674,7 +738,7 @@ pub enum Addressing {
     Sliced,
     /// The extent of each row in each slice.
     Rows,
-    /// One bit a voxel in the extent of each row; memory for those voxels that hold particles.
+    /// One bit per voxel in the extent of each row; memory for those voxels that hold particles.
     Bitmap,
     /// A fixed table for an unbounded space (Teschner 2003); collisions cost time.
     Hash,
@@ -697,9 +761,12 @@ pub enum Cell {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SlicingAxis {
+    /// Slices stand side by side along x.
     X,
+    /// Slices lie on each other.
     #[default]
     Y,
+    /// Slices stand behind each other along z.
     Z,
     /// The one that needs the fewest voxels.
     Auto,
@@ -717,13 +784,14 @@ impl SlicingAxis {
     }
 }
 
+/// How a voxel keeps its particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Storage {
     /// Count, prefix sum, scatter: particles stand in voxel order (Green 2012).
     #[default]
     Counting,
-    /// A fixed number of indices a voxel (Harada 2007's index pool).
+    /// A fixed number of indices per voxel (Harada 2007's index pool).
     Pool,
     /// A radix sort by voxel: particles stand in voxel order (Green 2012).
     Radix,
@@ -731,32 +799,38 @@ pub enum Storage {
     Bitonic,
 }
 
+/// An axis of the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Axis {
+    /// To the right.
     X,
+    /// Upwards.
     #[default]
     Y,
+    /// Towards the viewer.
     Z,
 }
 
+/// How long the scene is, and how long frames and steps are.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Time {
-    /// Seconds of simulated time; with `fps` it gives the number of frames.
+    /// Simulated time, seconds; with `fps` it gives the number of frames.
     #[schemars(range(min = 1e-9, max = 1e9))]
     pub duration: f64,
     /// Frames per simulated second.
     #[schemars(range(min = 1e-6, max = 1e9))]
     pub fps: f64,
-    /// Seconds; derived from contacts or from the fluid's speeds when left out. Shortened so that steps land on frame
-    /// times. The longest step where steps are adaptive.
+    /// Length of a step, seconds; derived from contacts or from the fluid's speeds when left out. Shortened so that steps
+    /// land on frame times. The longest step where steps are adaptive.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-12, max = 1e3))]
     pub step: Option<f64>,
     /// Steps in the shortest contact, when `step` is left out; fewer than 20 is refused.
     #[schemars(range(min = 20, max = 100_000))]
     pub steps_per_contact: u32,
+    /// How a step is made from forces.
     pub integrator: Integrator,
     /// Whether the device chooses each step by what it finds: motion, acceleration and, in fluids, the local speed of
     /// sound, besides the contact's duration, viscosity and `step`. Steps land on frame times and on events. Needs
@@ -777,12 +851,13 @@ impl Default for Time {
     }
 }
 
+/// How a step is made from forces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Integrator {
-    /// First order, one force pass a step (Rojas 2013, Eq. 7).
+    /// First order, one force pass per step (Rojas 2013, Eq. 7).
     #[default]
     SymplecticEuler,
-    /// Second order, one force pass a step and an acceleration kept a particle.
+    /// Second order, one force pass per step; each particle keeps its acceleration too.
     VelocityVerlet,
 }

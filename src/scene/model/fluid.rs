@@ -7,13 +7,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fluid {
+    /// How the fluid's pressure is found.
     #[serde(default)]
     pub solver: FluidSolver,
     /// Distance of particles at rest, metres. Each has the mass of a square or cube of this side. It becomes a little more
     /// or less where bodies' boxes are no whole number of spacings long, so that the fluid fills them exactly.
     #[schemars(range(min = 1e-9, max = 1e6))]
     pub spacing: f64,
-    /// At rest, kg/m³ (kg/m² times one metre in 2D).
+    /// Density at rest, kg/m³ (a 2D fluid is one metre deep).
     #[serde(default = "water")]
     #[schemars(range(min = 1e-6, max = 1e6))]
     pub density: f64,
@@ -21,6 +22,7 @@ pub struct Fluid {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub viscosity: f64,
+    /// How viscous forces are computed.
     #[serde(default)]
     pub viscosity_form: ViscosityForm,
     /// Artificial viscosity α (Monaghan 1992); keeps impacts stable. Walls along which fluid slips damp only what
@@ -28,7 +30,7 @@ pub struct Fluid {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub artificial_viscosity: f64,
-    /// m/s. Ten times the fastest expected speed when left out, so that density varies by about one percent.
+    /// Speed of sound, m/s; ten times the fastest expected speed when left out, so that density varies by about one percent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-9, max = 1e9))]
     pub sound_speed: Option<f64>,
@@ -76,8 +78,10 @@ pub struct Fluid {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub density_diffusion: Option<f64>,
+    /// How pressures of two particles make a force.
     #[serde(default)]
     pub pressure_force: PressureForce,
+    /// What negative pressures do.
     #[serde(default)]
     pub negative_pressure: NegativePressure,
     /// Whether gradients are corrected to be exact for linear fields (Randles and Libersky 1996), and with them the
@@ -93,17 +97,17 @@ pub struct Fluid {
     /// What fluid does at walls.
     #[serde(default)]
     pub slip: Slip,
-    /// Of walls along which fluid slips: Fanning's friction factor c, with which they take ½ c ρ v² of shear stress, as
-    /// turbulent layers do that are thinner than the particles; a fourth of Darcy's. 0.005 is usual for smooth walls.
+    /// Friction of walls along which fluid slips: Fanning's factor c (a quarter of Darcy's). They resist with a shear
+    /// stress of ½ c ρ v², as turbulent layers do that are thinner than the particles. 0.005 is usual for smooth walls.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub wall_friction: f64,
-    /// Of the free surface, N/m (N in 2D); 0.0728 for water in air (Brackbill 1992; Morris 2000). Between two fluids it
+    /// Surface tension of the free surface, N/m (N in 2D); 0.0728 for water in air (Brackbill 1992; Morris 2000). Between two fluids it
     /// is the sum of both. Drops need `negative_pressure: keep` to hold together.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub surface_tension: f64,
-    /// At which the surface meets walls, measured inside the fluid, degrees; 90 when left out.
+    /// Angle at which the surface meets walls, measured inside the fluid, degrees; 90 when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 180.0))]
     pub contact_angle: Option<f64>,
@@ -137,20 +141,22 @@ fn courant_number() -> f64 {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
+    /// Name, for bodies and emitters.
     pub name: String,
-    /// At rest, kg/m³.
+    /// Density at rest, kg/m³.
     #[schemars(range(min = 1e-6, max = 1e6))]
     pub density: f64,
     /// Dynamic viscosity, Pa·s.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub viscosity: f64,
-    /// N/m.
+    /// Surface tension of its free surface, N/m (N in 2D).
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub surface_tension: f64,
 }
 
+/// How the fluid's pressure is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FluidSolver {
@@ -163,6 +169,7 @@ pub enum FluidSolver {
     Dfsph,
 }
 
+/// The weight of neighbors by distance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Kernel {
@@ -179,6 +186,7 @@ pub enum Kernel {
     Muller,
 }
 
+/// How viscous forces are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ViscosityForm {
@@ -189,6 +197,7 @@ pub enum ViscosityForm {
     Stress,
 }
 
+/// How density follows the flow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DensityFrom {
@@ -199,6 +208,7 @@ pub enum DensityFrom {
     Continuity,
 }
 
+/// How pressures of two particles make a force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PressureForce {
@@ -227,6 +237,7 @@ pub enum NegativePressure {
     Control,
 }
 
+/// What fluid does at walls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Slip {

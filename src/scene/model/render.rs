@@ -11,14 +11,20 @@ use super::Axis;
 pub struct Render {
     /// Width and height, pixels.
     pub size: [u32; 2],
+    /// What pictures show: the scene, the index pool or both.
     pub view: View,
+    /// What a particle looks like.
     pub splat: Splat,
-    /// Drawn radius over the grain's radius.
+    /// Drawn radius over the particle's radius.
     #[schemars(range(min = 0.01, max = 10.0))]
     pub splat_scale: f64,
+    /// Colors of the particles, and their legend.
     pub color: Color,
+    /// Where the eye is.
     pub camera: Camera,
+    /// What lies behind the scene.
     pub background: Background,
+    /// What else pictures show.
     pub show: Show,
     /// Samples along each side of a pixel.
     #[schemars(range(min = 1, max = 4))]
@@ -45,9 +51,11 @@ impl Default for Render {
     }
 }
 
+/// What pictures show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum View {
+    /// The scene.
     #[default]
     Scene,
     /// The index pool as a heatmap (Harada 2007, Figure 7).
@@ -56,6 +64,7 @@ pub enum View {
     Both,
 }
 
+/// What a particle looks like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Splat {
@@ -66,12 +75,13 @@ pub enum Splat {
     Disc,
 }
 
+/// Colors of the particles.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Color {
     /// The column that colors the particles: see `sliceflow scenes --columns`.
     pub by: String,
-    /// A color map by name.
+    /// Name of a color map: see `sliceflow scenes --color-maps`.
     pub map: String,
     /// Values at the two ends of the map; derived from the scene, then fixed, when left out.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -95,12 +105,15 @@ impl Default for Color {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Camera {
+    /// Whether what is far looks small.
     pub projection: Projection,
     /// Looks down this axis (an orthographic view as in Harada 2007, Figure 2).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axis: Option<Axis>,
+    /// Where the eye is, metres.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub eye: Option<[f64; 3]>,
+    /// What the eye looks at, metres.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target: Option<[f64; 3]>,
     /// Vertical angle of view, degrees.
@@ -128,25 +141,33 @@ impl Default for Camera {
     }
 }
 
+/// How the scene becomes flat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Projection {
+    /// What is far looks small.
     #[default]
     Perspective,
+    /// Size does not depend on distance.
     Orthographic,
 }
 
+/// What lies behind the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Background {
     /// A soft grey gradient.
     #[default]
     Studio,
+    /// A dark grey.
     Dark,
+    /// Plain white.
     White,
+    /// Plain black.
     Black,
 }
 
+/// What pictures show besides particles.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Show {
@@ -156,6 +177,7 @@ pub struct Show {
     pub floor: bool,
     /// The slices that `sliced` allocated, as translucent green boxes (Harada 2007, Figure 2).
     pub slices: bool,
+    /// Obstacles, those with `visible` set.
     pub colliders: bool,
     /// Name of the scene, time and particle count in a corner.
     pub caption: bool,
