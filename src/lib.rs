@@ -67,7 +67,9 @@
 //! - a format of particle files: one row in `src/output/particles/formats.rs`; a kind of video: one in
 //!   `src/output/video/mod.rs`;
 //! - a color map: one row in `src/scene/color_maps.rs`;
-//! - a case with a known truth: one file and one row in `src/study/accuracy/cases/`, its data in `assets/reference/`.
+//! - a case with a known truth: one file and one row in `src/study/accuracy/cases/`, its data in `assets/reference/`;
+//! - a page of the guide: one file in `assets/guide/src/` and one line in its summary; `tests/guide.rs` holds commands,
+//!   links and scenes there to the code, and makes the pages of keys.
 
 #[cfg(feature = "cli")]
 pub mod cli;
