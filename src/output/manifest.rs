@@ -26,8 +26,11 @@ pub struct Manifest<'a> {
     pub program: &'static str,
     /// Version of the program.
     pub version: &'static str,
-    #[serde(flatten)]
+    /// How the run went.
     pub status: Status,
+    /// The error, where it failed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub message: Option<String>,
     /// The program's arguments, as they were given.
     pub command_line: &'a [String],
     /// When the run began, in UTC (RFC 3339).
@@ -77,7 +80,7 @@ pub struct Manifest<'a> {
 
 /// How the run went.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
-#[serde(tag = "status", rename_all = "snake_case")]
+#[serde(rename_all = "snake_case")]
 pub enum Status {
     /// It goes on, or the program was killed.
     Running,
@@ -86,10 +89,7 @@ pub enum Status {
     /// It was stopped by Ctrl-C; what was finished is on disk.
     Interrupted,
     /// It ended with an error.
-    Failed {
-        /// The error.
-        message: String,
-    },
+    Failed,
 }
 
 /// One kind of file.
@@ -124,6 +124,7 @@ impl<'a> Manifest<'a> {
             program: env!("CARGO_PKG_NAME"),
             version: env!("CARGO_PKG_VERSION"),
             status: Status::Running,
+            message: None,
             command_line,
             started: clock::now(),
             finished: None,
@@ -168,9 +169,10 @@ impl<'a> Manifest<'a> {
         self.status = match outcome {
             Ok(()) => Status::Finished,
             Err(Error::Interrupted { .. }) => Status::Interrupted,
-            Err(error) => Status::Failed {
-                message: error.to_string(),
-            },
+            Err(error) => {
+                self.message = Some(error.to_string());
+                Status::Failed
+            }
         };
         self.write()
     }

@@ -156,9 +156,9 @@ struct Measured {
     potential_energy_j: f64,
     /// Speed of the fastest particle, m/s.
     max_speed_m_per_s: f64,
-    /// Deepest overlap of two grains, as a share of the radius; above 0.2 grains are too soft.
+    /// Grains: deepest overlap, as a share of the radius; above 0.2 grains are too soft.
     max_overlap: f64,
-    /// Contacts of grains, or neighbors in a fluid, as each particle sees them: a pair counts twice.
+    /// Grains: contacts as each grain sees them; one of two grains counts twice, one with a wall once.
     contacts: u64,
     /// Fluids: mean of |ρ/ρ₀ − 1| over the particles.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -82,7 +82,7 @@ fn list<'a>(schema: &'a Value, name: &str) -> &'a [Value] {
 struct Walk<'a> {
     kind: Kind,
     definitions: &'a Value,
-    /// Where a definition has its section.
+    /// Where a definition has its section, or its words.
     places: BTreeMap<&'a str, String>,
     /// Sections to come: path and definition.
     ahead: Vec<(String, &'a Value)>,
@@ -100,7 +100,10 @@ fn sections(schema: &Value, title: &str, kind: Kind) -> String {
     walk.section(title, "", schema);
     while !walk.ahead.is_empty() {
         let (path, schema) = walk.ahead.remove(0);
+        // What is inside of a section follows it.
+        let later = std::mem::take(&mut walk.ahead);
         walk.section(&format!("`{path}`"), &path, schema);
+        walk.ahead.extend(later);
     }
     walk.out
 }
@@ -139,28 +142,7 @@ impl<'a> Walk<'a> {
             .filter_map(Value::as_str)
             .collect();
         let properties = schema["properties"].as_object().into_iter().flatten();
-        let mut rest: Vec<(&String, &Value, Option<&str>)> = properties
-            .filter(|(_, property)| property["const"].is_null())
-            .map(|(key, property)| (key, property, None))
-            .collect();
-        // An enum that is flattened into the object: its word is a key, and variants have keys of their own.
-        for variant in list(schema, "oneOf") {
-            let own = variant["properties"].as_object().into_iter().flatten();
-            for (key, property) in own {
-                match property["const"].as_str() {
-                    Some(word) => {
-                        if !words.contains(&format!("`{key}` is one of")) {
-                            rows.push_str(&format!("| `{key}` | a word | how it went |\n"));
-                            words.push_str(&format!("\n`{key}` is one of\n\n"));
-                        }
-                        let about = flat(variant["description"].as_str().unwrap_or_default());
-                        words.push_str(&format!("- `{word}`: {about}\n"));
-                    }
-                    None => rest.push((key, property, Some("absent otherwise"))),
-                }
-            }
-        }
-        for (key, property, note) in rest {
+        for (key, property) in properties.filter(|(_, property)| property["const"].is_null()) {
             let inner = if path.is_empty() {
                 key.clone()
             } else {
@@ -185,10 +167,9 @@ impl<'a> Walk<'a> {
                     rows.push_str(&format!("| `{key}` | {spoken} | {default} | {about} |\n"));
                 }
                 Kind::Output => {
-                    let absent = match note {
-                        Some(note) => format!(" ({note})"),
-                        None if required.contains(&key.as_str()) => String::new(),
-                        None => " (may be absent)".to_owned(),
+                    let absent = match required.contains(&key.as_str()) {
+                        true => "",
+                        false => " (may be absent)",
                     };
                     rows.push_str(&format!("| `{key}` | {spoken} | {about}{absent} |\n"));
                 }
@@ -268,7 +249,13 @@ impl<'a> Walk<'a> {
             .iter()
             .any(|variant| !variant["properties"]["kind"].is_null());
         if !variants.is_empty() && !tagged || !definition["enum"].is_null() {
-            return ("a word".to_owned(), Some(words(definition)));
+            return match self.places.get(name) {
+                Some(place) => (format!("a word, as `{place}`"), None),
+                None => {
+                    self.places.insert(name, path.to_owned());
+                    ("a word".to_owned(), Some(words(definition)))
+                }
+            };
         }
         let place = self.places.get(name).cloned().unwrap_or_else(|| {
             self.ahead.push((path.to_owned(), definition));
