@@ -3,6 +3,8 @@
 //!
 //! Pages of keys are made anew by `UPDATE_GUIDE=1 cargo test --release --test guide`.
 
+#![cfg(all(feature = "cli", feature = "study", feature = "surface", feature = "video"))]
+
 #[path = "guide/keys.rs"]
 mod keys;
 
