@@ -79,8 +79,8 @@ pub enum Error {
     Different,
     /// Two runs cannot be compared.
     Incomparable(Box<Error>),
-    /// Ctrl-C; what was finished is on disk.
-    Interrupted { frames_done: u32 },
+    /// Ctrl-C; `kept` says what was finished.
+    Interrupted { kept: String },
 }
 
 impl Error {
@@ -118,6 +118,19 @@ impl Error {
             what: what.into(),
             help: help.into(),
         }
+    }
+
+    pub fn interrupted(kept: impl Into<String>) -> Self {
+        Self::Interrupted { kept: kept.into() }
+    }
+
+    /// Ctrl-C after so many frames.
+    pub fn interrupted_after(frames: u32) -> Self {
+        Self::interrupted(match frames {
+            0 => "no frame was finished".to_owned(),
+            1 => "one finished frame is on disk".to_owned(),
+            _ => format!("{frames} finished frames are on disk"),
+        })
     }
 
     /// Exit status of the program: 2 for what the user can correct in the input and for runs that cannot be compared, 130
@@ -170,9 +183,8 @@ impl fmt::Display for Error {
             }
             Self::Different => write!(f, "the runs differ"),
             Self::Incomparable(reason) => reason.fmt(f),
-            Self::Interrupted { frames_done } => {
-                write!(f, "interrupted; {frames_done} finished frame(s) are on disk")
-            }
+            Self::Interrupted { kept } if kept.is_empty() => write!(f, "interrupted"),
+            Self::Interrupted { kept } => write!(f, "interrupted; {kept}"),
         }
     }
 }

@@ -16,8 +16,8 @@
 //!
 //! - `src/error.rs`: the one error type; every message says what to do next.
 //! - `src/scene/`: what a user writes (`src/scene/model.rs`), checked against its own schema (`src/scene/check.rs`),
-//!   made into numbers (`src/scene/validate.rs`); shapes, meshes and files become particles. Points alone are a scene
-//!   without physics (`src/scene/points.rs`).
+//!   explained key by key (`src/scene/keys.rs`), made into numbers (`src/scene/validate.rs`); shapes, meshes and files
+//!   become particles. Points alone are a scene without physics (`src/scene/points.rs`).
 //! - `src/gpu/`: the only user of wgpu. Shaders are composed (`src/gpu/compose.rs`) and reflected
 //!   (`src/gpu/reflect.rs`); a pass binds buffers by the name that they have everywhere (`src/gpu/pass.rs`).
 //! - `src/neighbors/`: neighbor search = `src/neighbors/addressing.rs` × `src/neighbors/storage.rs`.
@@ -59,6 +59,7 @@
 //! # To add
 //!
 //! - a scene: one JSON file in `assets/scenes/`;
+//! - what another program calls a key or a word of scenes: one row in `src/scene/synonyms.rs`;
 //! - a way to address voxels or to keep particles: one shader file and one row of the table in
 //!   `src/neighbors/addressing.rs` or `src/neighbors/storage.rs`;
 //! - a smoothing kernel: one shader file in `shaders/physics/fluid/kernels/`, one word in `src/scene/model/fluid.rs` and
@@ -67,6 +68,7 @@
 //! - a format of particle files: one row in `src/output/particles/formats.rs`; a kind of video: one in
 //!   `src/output/video/mod.rs`;
 //! - a color map: one row in `src/scene/color_maps.rs`;
+//! - a study: one row in `src/study/mod.rs`, whose parts (`src/study/parts.rs`) run alone too;
 //! - a case with a known truth: one file and one row in `src/study/accuracy/cases/`, its data in `assets/reference/`;
 //! - a page of the guide: one file in `assets/guide/src/` and one line in its summary; `tests/guide.rs` holds commands,
 //!   links and scenes there to the code, and makes the pages of keys.

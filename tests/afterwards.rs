@@ -22,7 +22,7 @@ fn pictures_are_drawn_again_from_particle_files_to_the_byte() {
     let place = Place::new();
     let colored = ["--set", "render.color.by=contacts"];
     place.told(&mut place.run("run", &colored), 0);
-    let told = place.told(&mut place.sliceflow(&["render", "--from", "run"]), 0);
+    let told = place.told(&mut place.sliceflow(&["render", "run"]), 0);
     assert!(told.contains("drawing 25 frames"), "{told}");
     assert_eq!(pictures(&place, "run").len(), FRAMES as usize);
     assert!(
@@ -34,7 +34,6 @@ fn pictures_are_drawn_again_from_particle_files_to_the_byte() {
     // Another color, size and view.
     let other = [
         "render",
-        "--from",
         "run",
         "--set",
         "render.color.by=y",
@@ -52,7 +51,6 @@ fn pictures_are_drawn_again_from_particle_files_to_the_byte() {
     );
     let again = [
         "render",
-        "--from",
         "run",
         "--set",
         "render.color.by=speed",
@@ -67,14 +65,13 @@ fn pictures_are_drawn_again_from_particle_files_to_the_byte() {
 
     for (args, status, expected) in [
         (
-            &["render", "--from", "run", "--out", "x", "--set", "gravity=[0,0]"][..],
+            &["render", "run", "--out", "x", "--set", "gravity=[0,0]"][..],
             2,
             "`gravity`",
         ),
         (
             &[
                 "render",
-                "--from",
                 "run",
                 "--out",
                 "x",
@@ -84,18 +81,10 @@ fn pictures_are_drawn_again_from_particle_files_to_the_byte() {
             2,
             "`colliders`",
         ),
-        (
-            &["render", "--from", "run_render", "--out", "x"],
-            2,
-            "was drawn from",
-        ),
+        (&["render", "run_render", "--out", "x"], 2, "was drawn from"),
         (&["resume", "run_render"], 2, "was drawn from"),
-        (&["render", "--from", "run", "--out", "run"], 2, "--force"),
-        (
-            &["render", "--from", "nothing", "--out", "x"],
-            1,
-            "nothing/run.json",
-        ),
+        (&["render", "run", "--out", "run"], 2, "--force"),
+        (&["render", "nothing", "--out", "x"], 1, "nothing/run.json"),
     ] {
         let told = place.told(&mut place.sliceflow(args), status);
         assert!(told.contains(expected), "{args:?}: {told}");
@@ -149,7 +138,7 @@ fn every_format_is_compared_and_drawn() {
             assert!(columns.contains(column), "{format}: {columns:?}");
         }
 
-        let told = place.told(&mut place.sliceflow(&["render", "--from", format]), 0);
+        let told = place.told(&mut place.sliceflow(&["render", format]), 0);
         assert!(told.contains("drawing 25 frames"), "{format}: {told}");
         let again = format!("{format}_render");
         assert_eq!(pictures(&place, &again).len(), FRAMES as usize);
@@ -160,7 +149,7 @@ fn every_format_is_compared_and_drawn() {
         );
     }
     fs::write(place.path("ply/particles_000003.ply"), "ply\n").unwrap();
-    let render = ["render", "--from", "ply", "--force", "--out", "ply_render"];
+    let render = ["render", "ply", "--force", "--out", "ply_render"];
     let told = place.told(&mut place.sliceflow(&render), 2);
     assert!(
         told.contains("particles_000003.ply") && told.contains("remove it"),
@@ -182,7 +171,7 @@ fn checkpoints_are_drawn_too_and_what_is_missing_is_told() {
         "9",
     ];
     place.told(&mut place.sliceflow(&args), 0);
-    let told = place.told(&mut place.sliceflow(&["render", "--from", "run"]), 0);
+    let told = place.told(&mut place.sliceflow(&["render", "run"]), 0);
     assert!(
         told.contains("drawing 5 frames") && told.contains("20 others"),
         "{told}"
@@ -197,13 +186,13 @@ fn checkpoints_are_drawn_too_and_what_is_missing_is_told() {
         &mut place.run("bare", &["--columns", "position,id", "--checkpoint-every", "0"]),
         0,
     );
-    let told = place.told(&mut place.sliceflow(&["render", "--from", "bare"]), 2);
+    let told = place.told(&mut place.sliceflow(&["render", "bare"]), 2);
     assert!(
         told.contains("no velocity") && told.contains("render.color.by=y"),
         "{told}"
     );
     place.told(
-        &mut place.sliceflow(&["render", "--from", "bare", "--set", "render.color.by=density"]),
+        &mut place.sliceflow(&["render", "bare", "--set", "render.color.by=density"]),
         0,
     );
     let none = [
@@ -217,7 +206,7 @@ fn checkpoints_are_drawn_too_and_what_is_missing_is_told() {
         "0",
     ];
     place.told(&mut place.sliceflow(&none), 0);
-    let told = place.told(&mut place.sliceflow(&["render", "--from", "none"]), 2);
+    let told = place.told(&mut place.sliceflow(&["render", "none"]), 2);
     assert!(told.contains("--particles vtk"), "{told}");
 }
 

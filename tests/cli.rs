@@ -67,6 +67,9 @@ fn help_has_examples() {
         "devices",
         "surface",
         "import",
+        "new",
+        "study",
+        "completions",
     ] {
         let help = output(&[command, "--help"]);
         assert!(

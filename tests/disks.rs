@@ -150,7 +150,7 @@ fn a_folder_that_may_only_be_read_is_told_and_left_as_it_is() {
         ),
         (&["resume", "run", "--frames", "6"], "cannot write into run"),
         (
-            &["render", "--from", "run", "--out", "run/again"],
+            &["render", "run", "--out", "run/again"],
             "cannot create run/again",
         ),
     ] {

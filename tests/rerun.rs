@@ -328,3 +328,44 @@ fn a_viewer_that_cannot_be_started_is_told_with_the_way_to_get_it() {
         "{told}"
     );
 }
+
+#[test]
+fn a_fluid_has_curves_of_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out").display().to_string();
+    let file = folder.path().join("run.rrd");
+    let name = file.display().to_string();
+    let run = ["--rerun", &name, "--set", "fluid.spacing=0.05"];
+    sliceflow(&short_run("dam_break_2d", &out, &run))
+        .assert()
+        .success();
+    let found = read(&file);
+    for entity in [
+        "density",
+        "clamped",
+        "energy",
+        "speed",
+        "particles",
+        "voxels",
+        "time_step",
+    ] {
+        assert!(
+            found.rows.contains_key(&format!("/statistics/{entity}")),
+            "{entity}: {:?}",
+            found.rows
+        );
+    }
+    for of_grains in ["overlap", "contacts", "density_error_mean"] {
+        assert!(
+            !found.rows.contains_key(&format!("/statistics/{of_grains}")),
+            "{of_grains}: {:?}",
+            found.rows
+        );
+    }
+    // Boundary particles are not shown.
+    assert!(
+        found.particles.iter().all(|&shown| shown == 100),
+        "{:?}",
+        found.particles
+    );
+}

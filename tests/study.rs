@@ -10,7 +10,7 @@ use serde_json::Value;
 fn study(paper: &str, folder: &Path) -> Command {
     let mut command = Command::cargo_bin("sliceflow").expect("the program is built");
     command
-        .args(["study", paper, "--size", "tiny", "--out"])
+        .args(["study", paper, "--scale", "tiny", "--out"])
         .arg(folder);
     command
 }
@@ -262,12 +262,9 @@ fn cases_are_chosen_by_name_and_resolution() {
     assert!(records.iter().all(|record| record["resolution"] == 30));
 
     for (subject, more, told) in [
-        (
-            "accuracy",
-            ["--case", "colission"],
-            "there is no case `colission`",
-        ),
-        ("harada", ["--resolution", "3"], "no cases and no resolutions"),
+        ("accuracy", ["--case", "colission"], "did you mean `collision`?"),
+        ("harada", ["--resolution", "3"], "no resolutions"),
+        ("harada", ["--case", "table_9"], "figure_6"),
     ] {
         let output = study(subject, &folder.path().join("other"))
             .args(more)
@@ -275,6 +272,30 @@ fn cases_are_chosen_by_name_and_resolution() {
             .expect("it starts");
         assert_eq!(output.status.code(), Some(2));
         assert!(String::from_utf8_lossy(&output.stderr).contains(told));
+    }
+}
+
+/// Every study has parts that run alone, which the help names.
+#[test]
+fn a_part_runs_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (page, json) = run_cases("green", &["frames_per_second"], folder.path());
+    assert!(json["frames_per_second"].is_array(), "{json}");
+    for other in ["ways", "deterministic", "missing"] {
+        assert_eq!(json[other], Value::Null, "{other}");
+    }
+    assert!(
+        page.contains("## Frames a second") && !page.contains("## What repeatable"),
+        "{page}"
+    );
+
+    let help = Command::cargo_bin("sliceflow")
+        .expect("the program is built")
+        .args(["study", "--help"])
+        .output();
+    let help = String::from_utf8_lossy(&help.expect("it starts").stdout).into_owned();
+    for case in ["table_1", "ways", "taylor_green_2d", "figure_10", "hard_cases"] {
+        assert!(help.contains(case), "{case}: {help}");
     }
 }
 

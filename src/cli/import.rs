@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::quiet_args::QuietArgs;
 use super::stdout;
 use crate::error::{Error, Result};
 use crate::output::text::count;
@@ -19,11 +20,13 @@ pub struct Args {
     /// SPlisHSPlasH scene file (JSON)
     scene: PathBuf,
     /// Scene file to write; standard output when left out
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Replaces that file where it is there
     #[arg(long, requires = "out")]
     force: bool,
+    #[command(flatten)]
+    quiet: QuietArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -45,20 +48,20 @@ pub fn main(args: &Args) -> Result<()> {
     }
     let imported = import(&args.scene, folder)?;
     for note in &imported.notes {
-        eprintln!("note: {note}");
+        args.quiet.tell(&format!("note: {note}"));
     }
     for ignored in &imported.ignored {
-        eprintln!("ignored: {ignored}");
+        args.quiet.tell(&format!("ignored: {ignored}"));
     }
     let text = format!("{:#}\n", imported.json);
-    eprintln!(
+    args.quiet.tell(&format!(
         "imported {} particles and {} obstacles{}",
         count(imported.scene.particles.len() as u64),
         imported.scene.colliders.len(),
         args.out
             .as_ref()
             .map_or_else(String::new, |out| format!(" into {}", out.display()))
-    );
+    ));
     match &args.out {
         Some(out) => write_file(out, text.as_bytes()),
         None => stdout::print(&text),

@@ -3,6 +3,7 @@
 #[cfg(not(all(feature = "study", feature = "surface")))]
 mod absent;
 mod checkpoint_args;
+mod completions;
 mod device_args;
 mod devices;
 mod diff;
@@ -10,8 +11,10 @@ mod grid;
 mod import;
 mod inspect;
 mod neighbors;
+mod new;
 mod particle_args;
 mod plan;
+mod quiet_args;
 mod render;
 mod rerun_args;
 mod resume;
@@ -47,6 +50,7 @@ struct Cli {
 const EXAMPLES: &str = "\
 Examples:
   sliceflow scenes                              what ships
+  sliceflow new my_dam                          a scene to begin with, my_dam.json
   sliceflow run green_cube                      frames into out/green_cube
   sliceflow run green_cube --set grains.spring=2e5 --out out/stiff
   sliceflow resume out/green_cube               goes on where it was stopped
@@ -63,10 +67,12 @@ enum Command {
     Neighbors(neighbors::Args),
     Surface(surface::Args),
     Import(import::Args),
+    New(new::Args),
     Scenes(scenes::Args),
     Schema(schema::Args),
     Devices(devices::Args),
     Study(study::Args),
+    Completions(completions::Args),
 }
 
 /// The command line, for what explains or completes it.
@@ -86,10 +92,12 @@ pub fn main() -> Result<()> {
         Command::Neighbors(args) => neighbors::main(&args),
         Command::Surface(args) => surface::main(&args),
         Command::Import(args) => import::main(&args),
+        Command::New(args) => new::main(&args),
         Command::Scenes(args) => scenes::main(&args),
         Command::Schema(args) => schema::main(&args),
         Command::Devices(args) => devices::main(&args),
         Command::Study(args) => study::main(&args),
+        Command::Completions(args) => completions::main(&args, Cli::command()),
     }
 }
 
@@ -103,16 +111,16 @@ fn run_args(command_line: &[String]) -> Option<run::Args> {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory as _;
+    use super::*;
 
     #[test]
     fn arguments_are_consistent() {
-        super::Cli::command().debug_assert();
+        Cli::command().debug_assert();
     }
 
     #[test]
     fn every_command_has_examples() {
-        for command in super::Cli::command().get_subcommands() {
+        for command in Cli::command().get_subcommands() {
             let help = command
                 .get_after_help()
                 .map(ToString::to_string)

@@ -5,18 +5,21 @@ use std::path::PathBuf;
 use super::scene_args::size;
 use super::sitting_args::{SittingArgs, beside};
 use crate::error::Result;
-use crate::output::{self, Checkpoints, Every, Outputs, Recorded};
+use crate::output::{self, Checkpoints, Every, FrameRange, Outputs, Recorded, VideoOutput};
 
-/// Draws a run's frames again without simulating: another camera, color, size or view
+/// Draws a run's frames again without simulating: another camera, color, size or view, or a video
 ///
-/// Particles come from the run's particle files (`--particles`, any format) or its checkpoints; frames that have neither are
-/// left out and told. Colors by contacts, density or pressure are measured again, by one search a frame.
+/// Particles come from the run's particle files (`--particles`, any format) or its checkpoints; a message names frames that
+/// have neither. Any column that the files hold can color them; others are measured again where positions and velocities
+/// tell them, by one search per frame.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
     /// Folder of the run
-    #[arg(long, value_name = "RUN")]
-    from: PathBuf,
+    run: PathBuf,
+    /// Frames to draw, both included: 10..40, 10.., ..40 or 12 [default: all]
+    #[arg(long, value_name = "FIRST..LAST")]
+    frames: Option<FrameRange>,
     /// Changes what is drawn: render.color.by=y, render.camera.eye=[1,1,2] (repeatable)
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
@@ -26,8 +29,14 @@ pub struct Args {
     /// Size of pictures, pixels
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<[u32; 2]>,
+    /// Makes a video: .mp4 and .webm by the program ffmpeg; .gif and .png (animated), small, by Sliceflow itself
+    #[arg(long, value_name = "FILE")]
+    video: Option<PathBuf>,
+    /// Writes no picture of each frame
+    #[arg(long, requires = "video")]
+    no_pictures: bool,
     /// Folder to write [default: RUN_render]
-    #[arg(long, value_name = "DIR")]
+    #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Replaces earlier pictures in that folder
     #[arg(long)]
@@ -38,12 +47,13 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  sliceflow render --from out/green_cube --set render.color.by=y --set render.color.map=turbo
-  sliceflow render --from out/green_cube --size 3840x2160 --out out/green_cube_large
-  sliceflow render --from out/harada_figure_2_small --view both --set neighbors.storage=pool";
+  sliceflow render out/green_cube --set render.color.by=y --set render.color.map=turbo
+  sliceflow render out/green_cube --size 3840x2160 --out out/green_cube_large
+  sliceflow render out/dam --set render.color.by=pressure --frames 10..40 --video out/dam.gif
+  sliceflow render out/harada_figure_2_small --view both --set neighbors.storage=pool";
 
 pub fn main(args: &Args) -> Result<()> {
-    let recorded = Recorded::read(&args.from)?;
+    let recorded = Recorded::read(&args.run)?;
     let mut overrides = args.set.clone();
     overrides.extend(args.view.iter().map(|view| format!("render.view={view}")));
     overrides.extend(
@@ -52,13 +62,13 @@ pub fn main(args: &Args) -> Result<()> {
     );
     let folder = match &args.out {
         Some(out) => out.clone(),
-        None => beside(&args.from, "render")?,
+        None => beside(&args.run, "render")?,
     };
     let outputs = Outputs {
-        pictures: true,
+        pictures: !args.no_pictures,
         statistics: false,
         particles: None,
-        video: None,
+        video: args.video.as_deref().map(VideoOutput::new).transpose()?,
         rerun: None,
         checkpoints: Checkpoints {
             every: Every::Never,
@@ -66,5 +76,10 @@ pub fn main(args: &Args) -> Result<()> {
         },
     };
     let settings = args.sitting.settings(folder, args.force, outputs, false);
-    output::redraw(&recorded, &overrides, &settings)
+    output::redraw(
+        &recorded,
+        &overrides,
+        args.frames.unwrap_or(FrameRange::ALL),
+        &settings,
+    )
 }

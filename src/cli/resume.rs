@@ -30,7 +30,7 @@ pub struct Args {
     #[arg(long, value_name = "KEY=VALUE", requires = "branch_at")]
     set: Vec<String>,
     /// The variant's folder [default: RUN_at_FRAME]
-    #[arg(long, value_name = "DIR", requires = "branch_at")]
+    #[arg(short, long, value_name = "DIR", requires = "branch_at")]
     out: Option<PathBuf>,
     /// Replaces an earlier run in the variant's folder
     #[arg(long, requires = "branch_at")]

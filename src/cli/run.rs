@@ -11,15 +11,15 @@ use crate::output::{self, Outputs};
 /// Simulates a scene and writes its frames
 ///
 /// Writes pictures (frame_000000.png …), statistics (stats.jsonl), particle files and a video on request, and a manifest
-/// that says what everything is (run.json). Ctrl-C ends the run after the frames under way; `sliceflow resume` goes on
-/// with it.
+/// that says what everything is (run.json). Ctrl-C ends the run as soon as nothing is lost by that, and says what it waits
+/// for; `sliceflow resume` goes on with it.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
     #[command(flatten)]
     run: RunArgs,
     /// Folder to write [default: out/NAME OF THE SCENE]
-    #[arg(long, value_name = "DIR")]
+    #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Replaces an earlier run in that folder
     #[arg(long)]

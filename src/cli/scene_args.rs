@@ -3,8 +3,6 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
-
 use super::grid;
 use crate::error::Result;
 use crate::scene::{Scene, library, load, model, set};
@@ -83,7 +81,7 @@ impl SceneArgs {
                 .unwrap_or_default()
                 .to_owned(),
         };
-        let mut scene: Value = serde_json::from_str(&text).unwrap_or_default();
+        let mut scene = load::json(&text).unwrap_or_default();
         for one in overrides {
             // A broken override is told by `load`.
             let _ = set::apply(&mut scene, one);

@@ -11,10 +11,13 @@ use crate::scene::color_maps::COLOR_MAPS;
 use crate::scene::column::{COLUMNS, Column, VECTORS};
 use crate::scene::library;
 
-/// Lists the scenes that ship, columns or color maps
+/// Lists the scenes that ship, or prints one of them; lists columns or color maps
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
+    /// Prints this scene's file (JSON)
+    #[arg(value_name = "NAME", conflicts_with_all = ["columns", "color_maps"])]
+    name: Option<String>,
     /// Lists columns: values of particles that can be drawn (render.color.by) or written (--columns)
     #[arg(long, conflicts_with = "color_maps")]
     columns: bool,
@@ -29,17 +32,32 @@ pub struct Args {
 const EXAMPLES: &str = "\
 Examples:
   sliceflow scenes
+  sliceflow scenes dam_break_2d > my_dam.json
   sliceflow scenes --columns
   sliceflow scenes --color-maps --json";
 
 pub fn main(args: &Args) -> Result<()> {
-    if args.columns {
+    if let Some(name) = &args.name {
+        print_scene(name)
+    } else if args.columns {
         columns(args.json)
     } else if args.color_maps {
         color_maps(args.json)
     } else {
         scenes(args.json)
     }
+}
+
+/// The text as it ships, to the letter.
+fn print_scene(name: &str) -> Result<()> {
+    let text = library::find(name).ok_or_else(|| library::unknown(name))?;
+    for mesh in library::meshes_of(text) {
+        eprintln!(
+            "note: the scene reads {}; `sliceflow new NAME --from {name}` writes both",
+            mesh.written
+        );
+    }
+    stdout::print(text)
 }
 
 fn scenes(as_json: bool) -> Result<()> {

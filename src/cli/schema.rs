@@ -1,18 +1,147 @@
 //! `sliceflow schema`
 
 use super::stdout;
-use crate::error::Result;
-use crate::scene::load;
+use crate::error::{Error, Result};
+use crate::scene::keys::{self, Key};
+use crate::scene::{load, synonyms};
 
-/// Prints the JSON schema of scene files
+/// Prints the JSON schema of scene files, or explains one of their keys
+///
+/// With KEY it says what the key means, its unit, which values it takes, and what holds where it is left out.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Args {}
+pub struct Args {
+    /// A key with its path (fluid.viscosity, bodies[0].shape), or the last part of one (viscosity)
+    key: Option<String>,
+}
 
 const EXAMPLES: &str = "\
 Examples:
+  sliceflow schema fluid.viscosity
+  sliceflow schema bodies.shape
+  sliceflow schema render.camera
   sliceflow schema > scene.schema.json     then, in a scene: \"$schema\": \"scene.schema.json\"";
 
-pub fn main(_: &Args) -> Result<()> {
-    stdout::print_json(&load::schema())
+/// Columns of text in a terminal.
+const WIDTH: usize = 100;
+
+pub fn main(args: &Args) -> Result<()> {
+    let schema = load::schema();
+    let Some(typed) = &args.key else {
+        return stdout::print_json(&schema);
+    };
+    let keys = keys::all(&schema);
+    let found = find(typed, &keys);
+    if found.is_empty() {
+        return Err(unknown(typed, &keys));
+    }
+    let texts: Vec<_> = found.into_iter().map(explain).collect();
+    stdout::print(&texts.join("\n"))
+}
+
+/// The keys with this path; where there is none, those whose path ends so.
+fn find<'a>(typed: &str, keys: &'a [Key]) -> Vec<&'a Key> {
+    let wanted = without_brackets(typed);
+    let whole = keys.iter().filter(|key| key.plain_path() == wanted);
+    let whole: Vec<_> = whole.collect();
+    if !whole.is_empty() {
+        return whole;
+    }
+    let ending = format!(".{wanted}");
+    keys.iter()
+        .filter(|key| key.plain_path().ends_with(&ending))
+        .collect()
+}
+
+/// `bodies[0].shape` is `bodies.shape`, and so is `bodies[].shape`.
+fn without_brackets(path: &str) -> String {
+    let mut plain = String::new();
+    let mut is_inside = false;
+    for c in path.trim().chars() {
+        match c {
+            '[' => is_inside = true,
+            ']' => is_inside = false,
+            c if !is_inside => plain.push(c),
+            _ => {}
+        }
+    }
+    plain
+}
+
+fn explain(key: &Key) -> String {
+    let kinds = match &key.of_kinds[..] {
+        [] => String::new(),
+        kinds => format!(" (of kind {})", kinds.join(", ")),
+    };
+    let mut text = format!("{}{kinds}: {}; {}\n", key.path, key.value, key.presence);
+    for about in &key.about {
+        text.push_str(&paragraph("  ", about));
+    }
+    let names = key.choices.iter().map(|(name, _)| name.chars().count());
+    let width = names.max().unwrap_or(0);
+    for (name, about) in &key.choices {
+        text.push_str(&paragraph(&format!("    {name:<width$}  "), about));
+    }
+    text
+}
+
+/// Lines of a paragraph behind `head`, all indented alike.
+fn paragraph(head: &str, text: &str) -> String {
+    let indent = head.chars().count();
+    let mut lines = vec![head.to_owned()];
+    for word in text.split_whitespace() {
+        let line = lines.last_mut().expect("there is a line");
+        let is_first = line.chars().count() == indent;
+        if !is_first && line.chars().count() + 1 + word.chars().count() > WIDTH {
+            lines.push(format!("{}{word}", " ".repeat(indent)));
+        } else {
+            if !is_first {
+                line.push(' ');
+            }
+            line.push_str(word);
+        }
+    }
+    lines
+        .iter()
+        .map(|line| format!("{}\n", line.trim_end()))
+        .collect()
+}
+
+/// What was asked for may be another program's name of a key, one of the words that a key takes, or a typing mistake.
+fn unknown(typed: &str, keys: &[Key]) -> Error {
+    let wanted = without_brackets(typed);
+    let last = wanted.rsplit('.').next().unwrap_or(&wanted);
+    let mut near: Vec<String> = synonyms::keys_for(last)
+        .iter()
+        .map(|&key| key.to_owned())
+        .collect();
+    if near.is_empty() {
+        let takes = |key: &&Key| key.choices.iter().any(|(word, _)| word == last);
+        near.extend(keys.iter().filter(takes).map(Key::plain_path));
+    }
+    if near.is_empty()
+        && let Some(name) = synonyms::nearest(last, keys.iter().map(Key::name))
+    {
+        near.extend(keys.iter().filter(|key| key.name() == name).map(Key::plain_path));
+    }
+    near.dedup();
+    near.truncate(5);
+    let help = match &near[..] {
+        [] => {
+            let top = keys.iter().filter(|key| !key.path.contains('.'));
+            let top: Vec<_> = top.map(|key| key.name()).collect();
+            format!("the outermost keys are {}", top.join(", "))
+        }
+        near => format!("did you mean {}?", quoted(near)),
+    };
+    Error::usage(format!("no key of scenes is called `{typed}`"), help)
+}
+
+/// `` `a`, `b` or `c` ``
+fn quoted(words: &[String]) -> String {
+    let quoted: Vec<_> = words.iter().map(|word| format!("`{word}`")).collect();
+    match &quoted[..] {
+        [first @ .., last] if !first.is_empty() => format!("{} or {last}", first.join(", ")),
+        all => all.join(""),
+    }
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::device_args::DeviceArgs;
+use super::quiet_args::QuietArgs;
 use crate::error::{Error, Result};
 use crate::gpu::AdapterChoice;
 use crate::output::{Outputs, Settings, progress};
@@ -12,8 +13,10 @@ pub struct SittingArgs {
     #[command(flatten)]
     device: DeviceArgs,
     /// How progress is shown
-    #[arg(long, value_name = "STYLE", default_value = "bar")]
+    #[arg(long, value_name = "STYLE", default_value = "bar", conflicts_with = "quiet")]
     progress: progress::Style,
+    #[command(flatten)]
+    quiet: QuietArgs,
 }
 
 impl SittingArgs {
@@ -28,7 +31,7 @@ impl SittingArgs {
             outputs,
             timings,
             adapter: self.adapter(),
-            progress: self.progress,
+            progress: self.quiet.style(self.progress),
             command_line: std::env::args().collect(),
         }
     }

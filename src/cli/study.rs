@@ -2,114 +2,103 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser as _};
+
 use super::device_args::DeviceArgs;
+use super::quiet_args::QuietArgs;
 use super::stdout;
 use crate::error::{Error, Result};
-use crate::study::accuracy::Choice;
-use crate::study::accuracy::cases::CASES;
-use crate::study::{self, Settings, Size};
+use crate::study::{STUDIES, Settings, Size, Study};
 
 /// Measures what papers measured, errors against theory, or what solvers endure, and writes a page with the figures
 ///
-/// Writes one Markdown page with its pictures, and one JSON file with the same figures; says where the page is.
+/// Writes one Markdown page with its pictures, and one JSON file with the same figures; says where the page is. Ctrl-C
+/// ends the study and keeps the parts that were finished.
 #[derive(clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = after_help())]
 pub struct Args {
-    subject: Subject,
-    #[arg(long = "case", value_name = "CASE", help = cases_help())]
+    #[arg(
+        help = "What to study",
+        value_parser = PossibleValuesParser::new(STUDIES.iter().map(|s| PossibleValue::new(s.name).help(s.about)))
+            .map(study),
+    )]
+    subject: &'static Study,
+    /// Runs this part of the study alone (named below); may be given again
+    #[arg(long = "case", value_name = "CASE")]
     cases: Vec<String>,
-    /// `accuracy`: resolutions in place of each case's own (particles across, steps a contact)
+    /// `accuracy`: resolutions in place of each case's own (particles across, steps in a contact)
     #[arg(long = "resolution", value_name = "N,…", value_delimiter = ',')]
     resolutions: Vec<u32>,
     /// `small` takes minutes on two cores; `full` has the papers' own sizes and wants a graphics card
-    #[arg(long, value_name = "SIZE", default_value = "small")]
-    size: SizeWord,
+    #[arg(long, value_name = "SCALE", default_value = "small")]
+    scale: Scale,
     /// Folder to write [default: out/study/SUBJECT]
-    #[arg(long, value_name = "DIR")]
+    #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Replaces an earlier study in that folder
     #[arg(long)]
     force: bool,
     #[command(flatten)]
     device: DeviceArgs,
+    #[command(flatten)]
+    quiet: QuietArgs,
 }
 
 const EXAMPLES: &str = "\
 Examples:
-  sliceflow study harada
-  sliceflow study green --size full --adapter 0
+  sliceflow study harada --case table_1
+  sliceflow study green --scale full --adapter 0
   sliceflow study stability
   sliceflow study harada --out out/today --force
-  sliceflow study accuracy
   sliceflow study accuracy --case collision --resolution 50,200,1000";
 
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
-enum Subject {
-    /// Harada 2007: the sliced grid's memory and times
-    Harada,
-    /// Green 2012: atomics, scan and sort
-    Green,
-    /// Errors against theory and experiment, beside what they cost
-    Accuracy,
-    /// Rojas 2013: real-time ratio of a dam break
-    Rojas,
-    /// Longest stable steps, long rests and hard cases of every solver
-    Stability,
-}
-
-#[derive(Debug, Clone, Copy, clap::ValueEnum)]
-enum SizeWord {
+enum Scale {
     #[value(hide = true)]
     Tiny,
     Small,
     Full,
 }
 
-fn cases_help() -> String {
-    let names: Vec<_> = CASES.iter().map(|case| case.name).collect();
+fn after_help() -> String {
+    let cases = |study: &Study| format!("  {}: {}\n", study.name, (study.cases)().join(", "));
     format!(
-        "`accuracy`: runs this case alone ({}); may be given again",
-        names.join(", ")
+        "Cases:\n{}\n{EXAMPLES}",
+        STUDIES.iter().map(cases).collect::<String>()
     )
 }
 
+/// The row of a name that clap has found among them.
+fn study(name: String) -> &'static Study {
+    STUDIES
+        .iter()
+        .find(|study| study.name == name)
+        .expect("one of the possible values")
+}
+
 pub fn main(args: &Args) -> Result<()> {
-    let choice = Choice {
-        cases: args.cases.clone(),
-        resolutions: args.resolutions.clone(),
-    };
-    let name = match args.subject {
-        Subject::Harada => "harada",
-        Subject::Green => "green",
-        Subject::Accuracy => "accuracy",
-        Subject::Rojas => "rojas",
-        Subject::Stability => "stability",
-    };
-    if choice != Choice::default() && name != "accuracy" {
+    let study = args.subject;
+    if !args.resolutions.is_empty() && study.name != "accuracy" {
         return Err(Error::usage(
-            format!("`study {name}` has no cases and no resolutions to choose"),
-            "leave out --case and --resolution, or study `accuracy`",
+            format!("`study {}` has no resolutions to choose", study.name),
+            "leave out --resolution, or study `accuracy`",
         ));
     }
-    let settings = Settings {
-        size: match args.size {
-            SizeWord::Tiny => Size::Tiny,
-            SizeWord::Small => Size::Small,
-            SizeWord::Full => Size::Full,
+    let page = (study.run)(&Settings {
+        cases: args.cases.clone(),
+        resolutions: args.resolutions.clone(),
+        size: match args.scale {
+            Scale::Tiny => Size::Tiny,
+            Scale::Small => Size::Small,
+            Scale::Full => Size::Full,
         },
         folder: args
             .out
             .clone()
-            .unwrap_or_else(|| PathBuf::from("out/study").join(name)),
+            .unwrap_or_else(|| PathBuf::from("out/study").join(study.name)),
         force: args.force,
         adapter: args.device.adapter(),
-    };
-    let page = match args.subject {
-        Subject::Harada => study::harada(&settings),
-        Subject::Green => study::green(&settings),
-        Subject::Accuracy => study::accuracy(&settings, &choice),
-        Subject::Rojas => study::rojas(&settings),
-        Subject::Stability => study::stability(&settings),
-    }?;
+        quiet: args.quiet.is_quiet(),
+    })?;
     stdout::print(&format!("{}\n", page.display()))
 }

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser as _};
 
+use super::quiet_args::QuietArgs;
 use crate::error::{Error, Result};
 use crate::output::surface::{MESH_FORMATS, MeshFormat, Sequence, SurfaceSettings, make_surfaces};
 use crate::output::text::{count, seconds};
@@ -19,7 +20,7 @@ pub struct Args {
     /// Folder of a run
     run: PathBuf,
     /// Folder to write [default: the run's]
-    #[arg(long, value_name = "DIR")]
+    #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[arg(
         long,
@@ -47,6 +48,8 @@ pub struct Args {
     /// Replaces surfaces that are there
     #[arg(long)]
     force: bool,
+    #[command(flatten)]
+    quiet: QuietArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -68,10 +71,10 @@ pub fn main(args: &Args) -> Result<()> {
     }
     let frames = recorded.frames.len();
     if (frames as u64) < recorded.wanted {
-        eprintln!(
+        args.quiet.tell(&format!(
             "note: {frames} of {} frames have particle files; surfaces are made of those",
             recorded.wanted
-        );
+        ));
     }
     let out = args.out.as_ref().unwrap_or(&args.run);
     let started = Instant::now();
@@ -83,6 +86,7 @@ pub fn main(args: &Args) -> Result<()> {
         normals: !args.no_normals,
         format: args.format,
         force: args.force,
+        quiet: args.quiet.is_quiet(),
     };
     let made = make_surfaces(&recorded, out, &settings)?;
     if !made.empty.is_empty() {
@@ -92,13 +96,13 @@ pub fn main(args: &Args) -> Result<()> {
             frames.join(", ")
         );
     }
-    eprintln!(
+    args.quiet.tell(&format!(
         "done: {} surfaces in {}, {} triangles ({})",
         made.meshes,
         out.display(),
         count(made.triangles),
         seconds(started.elapsed().as_secs_f64())
-    );
+    ));
     Ok(())
 }
 

@@ -119,7 +119,7 @@ impl Items {
 }
 
 /// Passes in a row that are recorded several times. The device leaves out what it does not need ([`Items::Loop`]).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Repeat {
     /// Tells loops of a step apart.
     pub number: u32,

@@ -4,6 +4,7 @@
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// Hidden where standard error is no terminal.
+#[derive(Clone)]
 pub struct Bar {
     #[cfg(feature = "cli")]
     shown: ProgressBar,

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Instant;
 
 use super::checkpoint::{About, Checkpoint};
 use super::folder::Folder;
@@ -11,6 +12,7 @@ use super::manifest::Manifest;
 use super::progress::Progress;
 use super::recipe::Recipe;
 use super::run::Settings;
+use super::stopping::Stopping;
 use super::tally::Tally;
 use super::text::{bytes, seconds, short};
 use super::{Sink, disk_bytes, interrupt};
@@ -132,6 +134,8 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         settings.outputs.files(scene),
     );
     manifest.recipe = Some(recipe);
+    let stopping = Stopping::default();
+    stopping.listen(&progress);
     // Before any other file: from here on a run that dies can be resumed.
     manifest.update(tally)?;
     let sinks = match open_sinks(settings, scene, &plan, &folder, &progress, behind) {
@@ -148,7 +152,6 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         }
     };
 
-    interrupt::listen();
     let mut run = Run {
         sinks,
         progress,
@@ -158,6 +161,7 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         folder,
         health,
         tally,
+        stopping,
         pass_ms: Vec::new(),
         frames_timed: 0,
     };
@@ -235,6 +239,7 @@ struct Run<'a> {
     folder: Arc<Folder>,
     health: Health,
     tally: Tally,
+    stopping: Stopping,
     /// Sums over this sitting, by pass.
     pass_ms: Vec<(String, f64)>,
     frames_timed: u32,
@@ -248,17 +253,41 @@ impl Run<'_> {
             oldest.map_or(Ok(()), |frame| self.take(frame))?;
             self.checkpoint_when_due(simulation, false)?;
         }
-        while simulation.next_index() < frames && !interrupt::asked() {
-            if let Some(frame) = simulation.next_frame()? {
-                self.take(frame)?;
+        let mut given_up = false;
+        let mut usual_s = None;
+        while simulation.next_index() < frames && !given_up && !interrupt::asked() {
+            self.prepare_to_stop(simulation, usual_s);
+            let begun = Instant::now();
+            match simulation.next_frame() {
+                Ok(frame) => frame.map_or(Ok(()), |frame| self.take(frame))?,
+                Err(Error::Interrupted { .. }) => given_up = true,
+                Err(error) => return Err(error),
             }
-            self.checkpoint_when_due(simulation, false)?;
+            usual_s = Some(begun.elapsed().as_secs_f64());
+            if !given_up {
+                self.checkpoint_when_due(simulation, false)?;
+            }
         }
+        self.stopping.files();
         self.receive_all(simulation)?;
-        self.checkpoint_when_due(simulation, true)?;
+        if !given_up {
+            self.checkpoint_when_due(simulation, true)?;
+        }
         match self.tally.frames_done {
-            done if done < self.tally.frames => Err(Error::Interrupted { frames_done: done }),
+            done if done < self.tally.frames => Err(Error::interrupted_after(done)),
             _ => Ok(()),
+        }
+    }
+
+    /// The next frame is given up on Ctrl-C where nothing but itself is lost with it.
+    fn prepare_to_stop(&self, simulation: &mut Simulation, usual_s: Option<f64>) {
+        let index = simulation.next_index();
+        if index.checked_sub(1).is_none_or(|last| self.keeper.has(last)) {
+            simulation.stop_when(Some(interrupt::asked));
+            self.stopping.nothing();
+        } else {
+            simulation.stop_when(None);
+            self.stopping.frame(index, usual_s, self.keeper.last());
         }
     }
 

@@ -117,6 +117,17 @@ impl Keeper {
         }
     }
 
+    /// Whether a run that ends behind `frame` without another checkpoint loses nothing: it can go on from there, begins
+    /// with that frame, or wants no checkpoints.
+    pub fn has(&self, frame: u32) -> bool {
+        self.settings.every == Every::Never || frame == 0 || self.last_frame == Some(frame)
+    }
+
+    /// The frame of the last checkpoint.
+    pub fn last(&self) -> Option<u32> {
+        self.last_frame
+    }
+
     /// Frames up to `frame` that no checkpoint names yet.
     pub fn unsaved(&self, frame: u32) -> RangeInclusive<u32> {
         self.last_frame.map_or(0, |last| last + 1)..=frame
@@ -181,7 +192,9 @@ mod tests {
         assert_eq!([20, 21].map(|f| by_ten.is_due(f, true)), [false, true]);
         assert!(!keeper(Every::Frames(10), None, None).is_due(0, false));
         assert!(keeper(Every::Seconds(0.0), None, None).is_due(1, false));
+        assert_eq!([0, 19, 20, 21].map(|f| by_ten.has(f)), [true, false, true, false]);
         let never = keeper(Every::Never, Some(5), None);
+        assert!(never.has(6));
         assert!(never.is_due(5, false) && !never.is_due(6, true));
     }
 

@@ -46,8 +46,10 @@ pub struct Manifest<'a> {
     pub files: Vec<Files>,
     /// The adapter that computed.
     pub adapter: Identity,
-    /// Particles when every emitter and event has happened.
+    /// Particles when every emitter and event has happened, boundary particles apart.
     pub particles: u32,
+    /// Particles of walls, which carry pressure and velocity of the fluid on.
+    pub boundary_particles: u32,
     /// Seed of every random choice.
     pub seed: u64,
     /// Frames per simulated second.
@@ -132,7 +134,8 @@ impl<'a> Manifest<'a> {
             peak_resident_bytes: None,
             files,
             adapter: Identity::of(&gpu.adapter),
-            particles: scene.capacity,
+            particles: scene.first_wall(),
+            boundary_particles: scene.walls.len() as u32,
             seed: scene.file.seed,
             fps: scene.time.fps,
             step_s: scene.time.step,

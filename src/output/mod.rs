@@ -8,8 +8,10 @@ mod disk;
 mod drive;
 mod estimate;
 mod folder;
+mod frame_range;
+mod given_color;
 mod health;
-mod interrupt;
+pub mod interrupt;
 mod keeper;
 mod manifest;
 mod memory;
@@ -27,6 +29,7 @@ mod resume;
 mod rewind;
 mod run;
 mod statistics;
+mod stopping;
 #[cfg(feature = "surface")]
 pub mod surface;
 mod tally;
@@ -42,6 +45,7 @@ use std::sync::Arc;
 
 pub use disk::write as write_file;
 pub use estimate::{checkpoints as checkpoint_estimate, disk_bytes};
+pub use frame_range::FrameRange;
 pub use keeper::{Checkpoints, Every};
 pub use manifest::schema as manifest_schema;
 pub use particles::{

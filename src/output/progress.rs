@@ -20,6 +20,8 @@ pub enum Style {
     Plain,
     /// One JSON object a line, for programs.
     Json,
+    /// Warnings and errors alone.
+    None,
 }
 
 const TEMPLATE: &str = "{bar:30} {pos}/{len} frames  {wide_msg}";
@@ -32,16 +34,19 @@ pub struct Progress {
     show: Show,
 }
 
+#[derive(Clone)]
 enum Show {
     Bar(Bar),
     Plain { last: Option<Instant> },
     Json,
+    Quiet,
 }
 
 impl Progress {
     pub fn new(style: Style, frames: u32) -> Self {
         let show = match style {
             Style::Json => Show::Json,
+            Style::None => Show::Quiet,
             Style::Bar if cfg!(feature = "cli") && stderr().is_terminal() => {
                 Show::Bar(Bar::new(TEMPLATE, frames))
             }
@@ -52,12 +57,18 @@ impl Progress {
 
     /// Something to know.
     pub fn note(&self, text: &str) {
-        self.tell("note", text);
+        self.show.note(text);
     }
 
     /// Something to mind.
     pub fn warn(&self, text: &str) {
-        self.tell("warning", text);
+        self.show.tell("warning", text);
+    }
+
+    /// Tells notes from another thread.
+    pub fn teller(&self) -> impl Fn(&str) + Send + 'static {
+        let show = self.show.clone();
+        move |text| show.note(text)
     }
 
     pub fn frame(&mut self, frame: &Frame, tally: &Tally) {
@@ -92,6 +103,7 @@ impl Progress {
                 "particle_steps_per_s": tally.particle_steps_per_s,
                 "remaining_s": remaining_s,
             })),
+            Show::Quiet => {}
         }
     }
 
@@ -101,6 +113,7 @@ impl Progress {
         match &self.show {
             Show::Bar(_) | Show::Plain { .. } => line(text),
             Show::Json => event(json!({ "event": "end", "message": text, "result": tally })),
+            Show::Quiet => {}
         }
     }
 
@@ -110,12 +123,20 @@ impl Progress {
             bar.clear();
         }
     }
+}
+
+impl Show {
+    fn note(&self, text: &str) {
+        if !matches!(self, Self::Quiet) {
+            self.tell("note", text);
+        }
+    }
 
     fn tell(&self, kind: &str, text: &str) {
-        match &self.show {
-            Show::Bar(bar) => bar.suspend(|| line(&format!("{kind}: {text}"))),
-            Show::Plain { .. } => line(&format!("{kind}: {text}")),
-            Show::Json => event(json!({ "event": kind, "message": text })),
+        match self {
+            Self::Bar(bar) => bar.suspend(|| line(&format!("{kind}: {text}"))),
+            Self::Plain { .. } | Self::Quiet => line(&format!("{kind}: {text}")),
+            Self::Json => event(json!({ "event": kind, "message": text })),
         }
     }
 }

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::checkpoint::Checkpoint;
 use super::particles::{FORMATS, found};
+use super::recipe::Recorded;
 use super::rewind::checkpoints;
 use crate::error::{Error, Result};
 use crate::scene::particle_file;
@@ -17,11 +18,13 @@ const UNREADABLE: &str = "was it written whole? remove it, and do without its fr
 /// Which frames of a run can be read back, and from what.
 pub struct ReadBack {
     frames: BTreeMap<u32, PathBuf>,
+    /// Boundary particles of the run, which checkpoints hold behind all others.
+    boundary: usize,
 }
 
 /// One frame.
 pub struct Snapshot {
-    /// In order of id.
+    /// In order of id, without boundary particles.
     pub columns: Vec<Column>,
     /// Where it comes from a checkpoint.
     pub state: Option<State>,
@@ -43,7 +46,9 @@ impl ReadBack {
     pub fn open(folder: &Path) -> Result<Self> {
         let mut frames: BTreeMap<u32, PathBuf> = checkpoints(folder)?.into_iter().collect();
         frames.extend(found::find(folder)?);
-        Ok(Self { frames })
+        // Folders that nothing was simulated in have no manifest, and no checkpoints either.
+        let boundary = Recorded::read(folder).map_or(0, |recorded| recorded.boundary_particles);
+        Ok(Self { frames, boundary })
     }
 
     /// In order.
@@ -59,7 +64,7 @@ impl ReadBack {
         let snapshot = if path.is_dir() {
             Snapshot::from_arrays(path)
         } else if path.extension().is_some_and(|extension| extension == "bin") {
-            Snapshot::from_checkpoint(path)
+            Snapshot::from_checkpoint(path, self.boundary)
         } else {
             Snapshot::from_points(path)
         };
@@ -113,13 +118,14 @@ impl Snapshot {
         })
     }
 
-    fn from_checkpoint(path: &Path) -> Result<Self> {
+    fn from_checkpoint(path: &Path, boundary: usize) -> Result<Self> {
         let state = Checkpoint::read(path)
             .map_err(|wrong| Error::file(path, "read", wrong, "remove it, and do without its frame"))?
             .state;
         let ids = state.ids();
         let mut slot_of: Vec<usize> = (0..ids.len()).collect();
         slot_of.sort_by_key(|&slot| ids[slot]);
+        slot_of.truncate(ids.len().saturating_sub(boundary));
         let column = |name: &str| {
             let vectors = state.vectors(name)?;
             let origin = if name == "position" {

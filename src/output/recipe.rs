@@ -52,6 +52,9 @@ pub struct Recorded {
     pub status: String,
     pub frames_done: u32,
     pub wall_s: f64,
+    /// Unknown, and taken as none, in runs of earlier versions.
+    #[serde(default)]
+    pub boundary_particles: usize,
     /// Absent where frames were drawn from another run's particles.
     pub recipe: Option<Recipe>,
     /// That other run.

@@ -7,17 +7,20 @@ use serde_json::Value;
 
 use super::drive::open;
 use super::folder::Folder;
-use super::interrupt;
+use super::frame_range::FrameRange;
 use super::manifest::Manifest;
 use super::progress::Progress;
 use super::read_back::{ReadBack, Snapshot};
 use super::recipe::Recorded;
 use super::run::Settings;
+use super::stopping::Stopping;
 use super::tally::Tally;
 use super::text::seconds;
+use super::{given_color, interrupt};
 use crate::error::{Error, Result};
 use crate::plan::{Plan, Wanted};
 use crate::scene::Scene;
+use crate::scene::column::Source;
 use crate::simulation::frame::Frame;
 use crate::simulation::{Simulation, State};
 
@@ -28,23 +31,49 @@ const DRAWN_OF_COLLIDERS: [&str; 2] = ["color", "visible"];
 /// Columns that cannot be drawn without velocities.
 const OF_VELOCITY: [&str; 5] = ["speed", "velocity_x", "velocity_y", "velocity_z", "pressure"];
 
-/// Draws the frames of a run that have particle files or checkpoints once more, with the scene changed by `overrides`,
-/// into the folder of `settings`.
-pub fn redraw(recorded: &Recorded, overrides: &[String], settings: &Settings) -> Result<()> {
+/// Draws those frames of a run that lie in `range` and have particle files or checkpoints once more, with the scene
+/// changed by `overrides`, into the folder of `settings`.
+pub fn redraw(
+    recorded: &Recorded,
+    overrides: &[String],
+    range: FrameRange,
+    settings: &Settings,
+) -> Result<()> {
     let recipe = recorded.recipe()?;
     let mut scene = recipe.scene(overrides)?;
     check_changes(&recipe.scene(&[])?, &scene)?;
+    if let Some(video) = &settings.outputs.video {
+        video.check(settings.force)?;
+    }
     let source = ReadBack::open(&recorded.folder)?;
     let mut frames = Vec::new();
-    for frame in source.frames() {
+    let mut is_given = true;
+    let mut refusal = Ok(());
+    for frame in source.frames().filter(|&frame| range.contains(frame)) {
         if let Some(snapshot) = source.read(frame)?.filter(|s| s.column("position").is_some()) {
-            check_color(&scene, &snapshot, frame)?;
+            is_given &= given_color::values(&scene, &snapshot).is_some();
+            refusal = refusal.and_then(|()| check_color(&scene, &snapshot, frame));
             if snapshot.state.is_none() {
                 let free = scene.first_wall().max(snapshot.particles() as u32);
                 scene.capacity = free + scene.walls.len() as u32;
             }
             frames.push(frame);
         }
+    }
+    // What the device finds by itself in any case is left to it.
+    let column = scene.color.column;
+    let is_found = column.source != Source::Measured && column.name != "material" && refusal.is_ok();
+    if is_given && !is_found && !frames.is_empty() {
+        scene.color.column.source = Source::Given;
+    } else {
+        refusal?;
+    }
+    let made = recipe.first_frame..recipe.first_frame + recorded.frames_done;
+    if frames.is_empty() && !made.clone().any(|frame| range.contains(frame)) {
+        return Err(Error::usage(
+            "the run has none of these frames",
+            format!("it has frames {} to {}", made.start, made.end.saturating_sub(1)),
+        ));
     }
     let from = recorded.folder.display();
     let (Some(first), Some(last)) = (frames.first(), frames.last()) else {
@@ -57,8 +86,10 @@ pub fn redraw(recorded: &Recorded, overrides: &[String], settings: &Settings) ->
     };
     let folder = Arc::new(Folder::open(&settings.folder, settings.force)?);
     let progress = Progress::new(settings.progress, frames.len() as u32);
-    let made = recipe.first_frame..recipe.first_frame + recorded.frames_done;
-    let missing = made.filter(|frame| frames.binary_search(frame).is_err()).count();
+    let wanted = made.filter(|&frame| range.contains(frame));
+    let missing = wanted
+        .filter(|frame| frames.binary_search(frame).is_err())
+        .count();
     let missing = match missing {
         0 => String::new(),
         missing => format!("; {missing} others have neither particle files nor checkpoints"),
@@ -82,7 +113,16 @@ pub fn redraw(recorded: &Recorded, overrides: &[String], settings: &Settings) ->
     if let Some(told) = folder.clear()? {
         progress.note(&told);
     }
-    let mut sinks = settings.outputs.sinks(&scene, &plan, &folder, &progress)?;
+    let shown = as_shown(&scene, &frames);
+    if let Some(note) = settings
+        .outputs
+        .video
+        .as_ref()
+        .and_then(|video| video.note(&shown))
+    {
+        progress.note(&note);
+    }
+    let mut sinks = settings.outputs.sinks(&shown, &plan, &folder, &progress)?;
     let mut tally = Tally::start(frames.len() as u32);
     let mut manifest = Manifest::new(
         folder.manifest(),
@@ -94,7 +134,8 @@ pub fn redraw(recorded: &Recorded, overrides: &[String], settings: &Settings) ->
     );
     manifest.drawn_from = Some(std::path::absolute(&recorded.folder).unwrap_or_default());
     manifest.update(tally)?;
-    interrupt::listen();
+    let stopping = Stopping::default();
+    stopping.listen(&progress);
 
     let mut progress = progress;
     let mut take = |frame: Frame| -> Result<()> {
@@ -114,6 +155,11 @@ pub fn redraw(recorded: &Recorded, overrides: &[String], settings: &Settings) ->
             let Some(snapshot) = source.read(frame)? else {
                 continue;
             };
+            if scene.color.column.source == Source::Given
+                && let Some(values) = given_color::values(&scene, &snapshot)
+            {
+                simulation.give_column(&values)?;
+            }
             simulation.restore(&state(&scene, frame, snapshot))?;
             simulation.show(frame)?.map_or(Ok(()), &mut take)?;
         }
@@ -127,7 +173,7 @@ pub fn redraw(recorded: &Recorded, overrides: &[String], settings: &Settings) ->
     let mut outcome = finished.into_iter().fold(drawn, Result::and);
     let done = tally.frames_done;
     if outcome.is_ok() && done < tally.frames {
-        outcome = Err(Error::Interrupted { frames_done: done });
+        outcome = Err(Error::interrupted_after(done));
     }
     tally.stop_clock();
     progress.finish(
@@ -140,6 +186,17 @@ pub fn redraw(recorded: &Recorded, overrides: &[String], settings: &Settings) ->
     );
     let closed = manifest.close(tally, &outcome);
     outcome.and(closed)
+}
+
+/// The scene as a video shows it, with the frames that are drawn and no others.
+fn as_shown(scene: &Scene, frames: &[u32]) -> Scene {
+    let mut shown = scene.clone();
+    shown.time.frames = frames.len() as u32;
+    if let [first, .., last] = frames {
+        let distance = f64::from(last - first) / (frames.len() - 1) as f64;
+        shown.time.fps /= distance.round().max(1.0);
+    }
+    shown
 }
 
 /// What the device starts from to draw a frame.
@@ -159,7 +216,7 @@ fn state(scene: &Scene, frame: u32, snapshot: Snapshot) -> State {
     }
 }
 
-/// Colors may need what particle files do not hold; contacts and densities are measured again.
+/// Refuses colors that the files do not hold and that cannot be measured again, as contacts and densities of grains can.
 fn check_color(scene: &Scene, snapshot: &Snapshot, frame: u32) -> Result<()> {
     let column = scene.color.column.name;
     if OF_VELOCITY.contains(&column) && snapshot.column("velocity").is_none() {
@@ -168,12 +225,15 @@ fn check_color(scene: &Scene, snapshot: &Snapshot, frame: u32) -> Result<()> {
             "choose another color, such as --set render.color.by=y, or run again with --columns position,velocity",
         ));
     }
-    if scene.fluid().is_some() && ["density", "pressure"].contains(&column) && snapshot.state.is_none() {
+    let of_fluid = ["density", "pressure", "material"];
+    if scene.fluid().is_some() && of_fluid.contains(&column) && snapshot.state.is_none() {
         return Err(Error::usage(
             format!(
-                "frame {frame} cannot be colored by {column}: a fluid's is not found anew from its particle files"
+                "frame {frame} cannot be colored by {column}: its particle files have none, and positions do not tell"
             ),
-            "choose another color, such as --set render.color.by=speed, or draw from checkpoints",
+            format!(
+                "choose another color, such as --set render.color.by=speed, or run again with --columns velocity,{column}"
+            ),
         ));
     }
     Ok(())

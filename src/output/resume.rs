@@ -13,6 +13,7 @@ use super::progress::Progress;
 use super::recipe::{Recipe, Recorded};
 use super::rewind::checkpoints;
 use super::run::Settings;
+use super::stopping::Stopping;
 use crate::error::{Error, Result};
 use crate::plan::{Plan, Wanted};
 use crate::scene::Scene;
@@ -258,20 +259,19 @@ fn reach(
     progress.note(&format!(
         "there is no checkpoint of frame {frame}: simulating frames {next} to {frame} again"
     ));
-    interrupt::listen();
+    let stopping = Stopping::default();
+    stopping.listen(progress);
     let gpu = open(settings, progress)?;
     let plan = Plan::new(scene, &gpu.limits, &Wanted::default())?;
     if let Some(why) = &plan.lists_left_out {
         progress.note(why);
     }
     let mut simulation = Simulation::new(gpu, scene, &plan)?;
+    simulation.stop_when(Some(interrupt::asked));
     if let Some(state) = &state {
         simulation.restore(state)?;
     }
     while simulation.next_index() <= frame {
-        if interrupt::asked() {
-            return Err(Error::Interrupted { frames_done: 0 });
-        }
         simulation.next_frame()?;
     }
     while simulation.finish_frame()?.is_some() {}

@@ -69,8 +69,10 @@ struct Line {
     step_limited_by: &'static str,
     #[serde(flatten)]
     adaptive: Option<Adaptive>,
-    /// Particles in the scene at this time.
+    /// Particles in the scene at this time, boundary particles apart.
     particles: u32,
+    /// Particles of walls.
+    boundary_particles: u32,
     /// How often a particle found its voxel of a `pool` full, in all searches since the last frame; contacts are then
     /// missed. Zero is what one wants, and with every other storage it is.
     overflow_since_last_frame: u64,
@@ -235,6 +237,7 @@ pub fn figures(frame: &Frame) -> Map<String, Value> {
         step_limited_by: frame.step_limited_by,
         adaptive: frame.adaptive.as_ref().map(Adaptive::from),
         particles: frame.particles,
+        boundary_particles: frame.boundary_particles,
         overflow_since_last_frame: frame.overflow,
         quarantined: frame.quarantined,
         measured: frame.statistics.as_ref().map(Measured::from),
@@ -274,7 +277,7 @@ mod tests {
         };
         assert_eq!(
             line(&frame),
-            r#"{"frame":3,"time_s":0.1,"steps":300,"step_s":0.001,"step_limited_by":"viscosity","particles":10,"overflow_since_last_frame":0,"quarantined":0}"#
+            r#"{"frame":3,"time_s":0.1,"steps":300,"step_s":0.001,"step_limited_by":"viscosity","particles":10,"boundary_particles":0,"overflow_since_last_frame":0,"quarantined":0}"#
         );
 
         frame.adaptive = Some(AdaptiveSteps {

@@ -96,9 +96,12 @@ pub struct Plan {
     pub scene: String,
     /// 2 or 3.
     pub dimensions: usize,
-    /// Particles at the start.
-    pub particles: usize,
-    /// Particles when every emitter and event has happened.
+    /// Particles that are there from the start, boundary particles apart.
+    pub particles_at_start: u32,
+    /// The same when every event has happened.
+    pub particles: u32,
+    pub boundary_particles: u32,
+    /// What buffers have room for: all of them.
     pub capacity: u32,
     /// Length of a step, seconds.
     pub time_step_s: f64,
@@ -307,7 +310,9 @@ impl Plan {
         let plan = Self {
             scene: scene.name.clone(),
             dimensions: scene.dimensions.count(),
-            particles: scene.particles.len(),
+            particles_at_start: scene.particles.len() as u32,
+            particles: scene.first_wall(),
+            boundary_particles: scene.walls.len() as u32,
             capacity: scene.capacity,
             time_step_s: scene.time.step,
             time_step_limited_by: scene.time.limited_by.to_owned(),

@@ -7,6 +7,7 @@ use super::picture::{Picture, PoolPanel};
 use super::style::Style;
 use crate::gpu::BufferPlan;
 use crate::scene::Scene;
+use crate::scene::column::Source;
 use crate::scene::model::View;
 
 /// Pixels along a side of the blocks that hide spheres; `OCCLUSION_BLOCK` in shaders.
@@ -106,6 +107,10 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
     needs.storage("color_map", 256, 4, "the color map, 256 entries");
     let capacity = u64::from(scene.capacity.max(1));
     needs.storage("splat", capacity, 4, "color and visibility of each particle");
+    if scene.color.column.source == Source::Given {
+        let why = "what colors each particle, as files hold it";
+        needs.storage("given_column", capacity, 4, why);
+    }
     if style.colliders {
         let vertices = (colliders::triangles(scene).len() as u64).max(1);
         needs.storage("collider_vertex", vertices, 16, "colliders as triangles");

@@ -6,6 +6,7 @@ use super::light::{Light, SHADOW_TEXELS};
 use super::needs::BLOCK;
 use super::picture::floor_height;
 use crate::gpu::Variant;
+use crate::scene::column::Source;
 use crate::scene::model::{Addressing, Splat, View};
 use crate::scene::{Dimensions, Scene};
 
@@ -58,6 +59,10 @@ impl Style {
 
     /// The plan's variant with what pictures add.
     pub fn variant(&self, scene: &Scene, plan: &Variant) -> Variant {
+        let column = match scene.color.column.source {
+            Source::Given => "render/given_column".to_owned(),
+            _ => format!("render/columns/{}", scene.color.column.name),
+        };
         let mut variant = plan.clone();
         variant
             .flag("two_dimensional", !self.three_dimensional)
@@ -67,7 +72,7 @@ impl Style {
             .flag("has_floor", self.floor)
             .constant("SHADOW_TEXELS", SHADOW_TEXELS)
             .constant("OCCLUSION_BLOCK", BLOCK)
-            .role("column", format!("render/columns/{}", scene.color.column.name));
+            .role("column", column);
         variant
     }
 

@@ -4,12 +4,15 @@
 
 use serde_json::{Map, Value};
 
-use super::text::{list, nearest, number};
+use super::keys;
+use super::synonyms::{Meant, meant, meant_word};
+use super::text::{list, number};
 use crate::error::Problem;
 
 /// Every way in which `value` does not follow `schema`.
 pub fn check(value: &Value, schema: &Value) -> Vec<Problem> {
     let mut walk = Walk {
+        schema,
         definitions: &schema["$defs"],
         problems: Vec::new(),
     };
@@ -18,6 +21,8 @@ pub fn check(value: &Value, schema: &Value) -> Vec<Problem> {
 }
 
 struct Walk<'a> {
+    /// Of the whole scene.
+    schema: &'a Value,
     definitions: &'a Value,
     problems: Vec<Problem>,
 }
@@ -98,18 +103,23 @@ impl<'a> Walk<'a> {
             return;
         };
         let known = properties.keys().map(String::as_str);
-        let mut meant = Vec::new();
+        let mut replaced = Vec::new();
         for (key, value) in object {
             let place = join(path, key);
             match properties.get(key) {
                 Some(property) => self.visit(&place, value, property, None),
                 None if schema["additionalProperties"] == false => {
-                    let near = nearest(key, known.clone());
-                    let help = match near {
-                        Some(near) => format!("did you mean `{near}`?"),
+                    let all = keys::all(self.schema);
+                    let all: Vec<String> = all.iter().map(keys::Key::plain_path).collect();
+                    // Keys of an element of a list have nothing to do with those of other objects.
+                    let meant = meant(key, known.clone(), &all, !path.contains('['));
+                    let help = match &meant {
+                        Some(meant) => meant.question(key),
                         None => format!("keys here: {}", list(known.clone())),
                     };
-                    meant.extend(near);
+                    if let Some(Meant::Here(near)) = meant {
+                        replaced.push(near);
+                    }
                     self.problems.push(Problem::new(place, "unknown key", help));
                 }
                 None => {}
@@ -117,7 +127,7 @@ impl<'a> Walk<'a> {
         }
         for key in alternatives(schema, "required").iter().filter_map(Value::as_str) {
             // A misspelled key has been reported as such.
-            if !object.contains_key(key) && !meant.contains(&key) {
+            if !object.contains_key(key) && !replaced.contains(&key) {
                 let help = with_about("add it", self.about(&properties[key]));
                 self.problems.push(Problem::new(join(path, key), "missing", help));
             }
@@ -181,7 +191,7 @@ impl<'a> Walk<'a> {
             Some(word) if words.contains(&word) => {}
             Some(word) => {
                 let all = list(words.iter().copied());
-                let help = match nearest(word, words.iter().copied()) {
+                let help = match meant_word(word, words.iter().copied()) {
                     Some(near) => format!("did you mean `{near}`? one of {all}"),
                     None => format!("one of {all}"),
                 };

@@ -2,7 +2,8 @@
 
 use super::frame::{Frame, Report};
 use super::model::{Axis, Cell, SceneFile};
-use super::text::{list, number, suggest};
+use super::synonyms::suggest_word;
+use super::text::{list, number};
 use super::{Coloring, Dimensions, Particles, color_maps, column};
 
 /// What default ranges are derived from.
@@ -22,7 +23,7 @@ pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
         report.problem(
             "render.color.map",
             format!("no color map is called \"{}\"", color.map),
-            suggest(&color.map, names),
+            suggest_word(&color.map, names),
         );
     }
     if let Some(range) = color.range {
@@ -49,7 +50,7 @@ pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
             ),
             None => (
                 format!("no column is called \"{}\"", color.by),
-                suggest(&color.by, names),
+                suggest_word(&color.by, names),
             ),
         };
         report.problem("render.color.by", what, help);

@@ -19,6 +19,8 @@ pub enum Source {
     Measured,
     /// The neighbor search.
     Search,
+    /// Files that a run has left, when its particles are drawn again.
+    Given,
 }
 
 const fn column(name: &'static str, unit: &'static str, about: &'static str, source: Source) -> Column {

@@ -1,5 +1,6 @@
-//! JSON text to a value: no key twice, and errors that say where and what to do.
+//! JSON text to a value: no key twice, comments from `//` to the end of a line, and errors that say where and what to do.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use serde::de::{Deserialize, Deserializer, Error as _, MapAccess, SeqAccess, Visitor};
@@ -7,11 +8,34 @@ use serde_json::{Map, Value};
 
 use crate::error::Problem;
 
-/// Parses JSON text; a key that occurs twice in an object is an error.
+/// Parses JSON text, which may hold comments; a key that occurs twice in an object is an error.
 pub fn parse(text: &str) -> Result<Value, Problem> {
-    serde_json::from_str::<Strict>(text)
+    let text = without_comments(text);
+    serde_json::from_str::<Strict>(&text)
         .map(|strict| strict.0)
-        .map_err(|error| explain(text, &error))
+        .map_err(|error| explain(&text, &error))
+}
+
+/// The text with spaces in place of comments, so that everything else stays where it is.
+fn without_comments(text: &str) -> Cow<'_, str> {
+    if !text.contains("//") {
+        return text.into();
+    }
+    let mut kept = String::with_capacity(text.len());
+    let (mut in_text, mut is_escaped, mut in_comment) = (false, false, false);
+    let mut rest = text.chars().peekable();
+    while let Some(c) = rest.next() {
+        in_comment = c != '\n' && (in_comment || !in_text && c == '/' && rest.peek() == Some(&'/'));
+        if in_comment {
+            kept.extend(std::iter::repeat_n(' ', c.len_utf8()));
+            continue;
+        }
+        // A line break ends a text too: the parser refuses it there.
+        in_text = c != '\n' && in_text != (c == '"' && !is_escaped);
+        is_escaped = in_text && c == '\\' && !is_escaped;
+        kept.push(c);
+    }
+    kept.into()
 }
 
 struct Strict(Value);
@@ -85,10 +109,10 @@ fn explain(text: &str, error: &serde_json::Error) -> Problem {
             format!("`{word}` is too large for a number"),
             "JSON has no Infinity; give a finite number, at most 1e308",
         )
-    } else if word.starts_with("//") || word.starts_with("/*") || word.starts_with('#') {
+    } else if word.starts_with('/') || word.starts_with('#') {
         (
-            "a comment".into(),
-            "JSON has no comments; remove it, or use `description`",
+            "a comment of another language".into(),
+            "comments begin with // and end with the line",
         )
     } else {
         (what.to_string(), help_for(what))
@@ -138,4 +162,26 @@ fn word_at(text: &str, line: usize, column: usize) -> &str {
         .map_or(0, |(end, c)| end + c.len_utf8());
     let length = line[start..].find(is_end).unwrap_or(line.len() - start);
     &line[start..start + length]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn comments_end_with_the_line_and_do_not_begin_in_text() {
+        let text = r#"// first
+{ "a": 1, // µ "b": 2
+  "c": "http://x \"//", "d": [2] } // last"#;
+        assert_eq!(
+            parse(text).unwrap(),
+            serde_json::json!({ "a": 1, "c": "http://x \"//", "d": [2] })
+        );
+        let wrong = parse("{ // 1\n  \"a\": nan }").unwrap_err();
+        assert_eq!(wrong.path, "line 2, column 9");
+        for other in ["{ /* a */ }", "{ # a\n }", "{ / }"] {
+            let told = parse(other).unwrap_err();
+            assert!(told.help.contains("//"), "{other}: {told}");
+        }
+    }
 }

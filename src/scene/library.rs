@@ -3,11 +3,10 @@
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-use include_dir::{Dir, include_dir};
-use serde_json::Value;
+use include_dir::{Dir, File, include_dir};
 use sha2::{Digest, Sha256};
 
-use super::{load, text};
+use super::{json, load, text};
 use crate::error::{Error, Result};
 
 static SCENES: Dir = include_dir!("$CARGO_MANIFEST_DIR/assets/scenes");
@@ -20,7 +19,7 @@ pub struct Entry {
     pub name: String,
     pub description: String,
     pub source: String,
-    /// At the end of the run.
+    /// At the end of the run, boundary particles apart.
     pub particles: u32,
 }
 
@@ -41,18 +40,42 @@ pub fn find(name: &str) -> Option<&'static str> {
     SCENES.get_file(format!("{name}.json"))?.contents_utf8()
 }
 
+/// A mesh that ships.
+#[derive(Debug, Clone)]
+pub struct Mesh {
+    /// The path as scenes that ship write it.
+    pub written: String,
+    /// The file's own name.
+    pub name: &'static str,
+    pub bytes: &'static [u8],
+}
+
+/// The meshes that a scene that ships reads; `text` is the scene's.
+pub fn meshes_of(text: &str) -> Vec<Mesh> {
+    let mesh = |file: &'static File<'static>| {
+        let name = file.path().file_name()?.to_str()?;
+        let written = format!("../meshes/{name}");
+        text.contains(&format!("\"{written}\"")).then_some(Mesh {
+            written,
+            name,
+            bytes: file.contents(),
+        })
+    };
+    MESHES.files().filter_map(mesh).collect()
+}
+
 /// All scenes that ship; each is loaded to count its particles.
 pub fn entries() -> Result<Vec<Entry>> {
     let entry = |name: &str| {
         let text = find(name).unwrap_or_default();
-        let file: Value = serde_json::from_str(text).unwrap_or_default();
+        let file = json::parse(text).unwrap_or_default();
         let word = |key: &str| file[key].as_str().unwrap_or_default().to_string();
         let scene = load::parse(text, &format!("{name}.json"), &folder()?, &[])?;
         Ok(Entry {
             name: name.to_string(),
             description: word("description"),
             source: word("source"),
-            particles: scene.capacity,
+            particles: scene.first_wall(),
         })
     };
     names().into_iter().map(entry).collect()

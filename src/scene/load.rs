@@ -51,9 +51,7 @@ fn scene(
     folder: &Path,
     overrides: &[String],
 ) -> std::result::Result<Scene, Vec<Problem>> {
-    // Editors on Windows put a byte order mark before the text.
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut value = json_text::parse(text).map_err(|problem| vec![problem])?;
+    let mut value = json(text).map_err(|problem| vec![problem])?;
     let failed: Vec<_> = overrides
         .iter()
         .filter_map(|one| set::apply(&mut value, one).err())
@@ -77,6 +75,12 @@ fn scene(
         file.name = stem.to_string_lossy().into_owned();
     }
     validate(file, folder)
+}
+
+/// A scene's text as JSON, before it is checked.
+pub fn json(text: &str) -> std::result::Result<Value, Problem> {
+    // Editors on Windows put a byte order mark before the text.
+    json_text::parse(text.strip_prefix('\u{feff}').unwrap_or(text))
 }
 
 /// The JSON schema of scene files.

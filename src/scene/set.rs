@@ -35,7 +35,7 @@ pub fn apply(scene: &mut Value, assignment: &str) -> Result<(), Problem> {
                 }
                 let kind = kind(here);
                 let object = here.as_object_mut().ok_or_else(|| {
-                    let help = format!("`{walked}` holds {kind}; set it whole, or help the path");
+                    let help = format!("`{walked}` holds {kind}; set it whole, or correct the path");
                     fail(format!("`{walked}` has no key `{key}`"), help)
                 })?;
                 if !walked.is_empty() {

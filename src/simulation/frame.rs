@@ -26,7 +26,9 @@ pub struct Frame {
     pub step_limited_by: &'static str,
     /// Where the device chose their lengths.
     pub adaptive: Option<AdaptiveSteps>,
+    /// Boundary particles apart.
     pub particles: u32,
+    pub boundary_particles: u32,
     /// How often a particle found its voxel of a pool full, summed over all searches since the last frame.
     pub overflow: u64,
     /// How the loops of an iterative pressure solver went since the last frame.

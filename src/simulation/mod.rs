@@ -10,7 +10,9 @@ pub mod passes;
 mod rounds;
 mod segments;
 pub mod state;
+mod submissions;
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use glam::Vec3;
@@ -35,11 +37,10 @@ use crate::render::Renderer;
 use crate::scene::{self, Action, Matter, Scene};
 use passes::{Kernels, Passes, Step, recorded};
 use segments::{Segment, segments};
+use submissions::Submissions;
 
 /// Frames that may be on their way to the host while the device goes on.
 const FRAMES_UNDER_WAY: usize = 3;
-/// Steps recorded into one submission; enough to hide its cost, short enough for a display driver's watchdog.
-const STEPS_PER_SUBMISSION: u64 = 32;
 
 /// A scene on a device.
 pub struct Simulation {
@@ -62,6 +63,9 @@ pub struct Simulation {
     contact: Option<scene::Contact>,
     /// Events that have happened.
     happened: usize,
+    submissions: RefCell<Submissions>,
+    /// Asked before each submission whether to give the frame up.
+    stop: Option<fn() -> bool>,
     /// Steps that were submitted since the run began.
     submitted: u64,
     /// Of adaptive steps, as the device left it.
@@ -127,6 +131,8 @@ impl Simulation {
             gravity: scene.gravity,
             contact: scene.grains().map(|grains| grains.contact),
             happened: 0,
+            submissions: RefCell::default(),
+            stop: None,
             submitted: 0,
             pace: pace::at_start(&scene),
             growths: 0,
@@ -161,6 +167,12 @@ impl Simulation {
             .max()
             .unwrap_or(0) as u32;
         self.timer = if on { Timer::new(&self.gpu, passes) } else { None };
+    }
+
+    /// From now on a frame is given up with [`Error::Interrupted`] as soon as `asked` says so. Frames before it can
+    /// still be received; the simulation stands in the middle of a frame then, and cannot go on.
+    pub fn stop_when(&mut self, asked: Option<fn() -> bool>) {
+        self.stop = asked;
     }
 
     /// What never changes during a run.
@@ -406,23 +418,33 @@ impl Simulation {
         }
         let mut left = steps;
         while left > 0 {
-            let now = left.min(STEPS_PER_SUBMISSION);
+            let now = left.min(self.most_steps());
             left -= now;
             self.submit(&vec![&self.passes.step[..]; now as usize])?;
         }
         Ok(())
     }
 
-    /// Records passes and submits them.
+    /// Steps that a submission should have at most.
+    fn most_steps(&self) -> u64 {
+        self.submissions.borrow().most_steps()
+    }
+
+    /// Records passes of so many steps, or of a search, and submits them.
     fn submit(&self, sequences: &[&[Step]]) -> Result<()> {
+        if self.stop.is_some_and(|asked| asked()) {
+            return Err(Error::interrupted(""));
+        }
         let mut encoder = self.encoder("steps");
         let mut compute = encoder.begin_compute_pass(&Default::default());
         for step in sequences.iter().flat_map(|steps| recorded(steps)) {
             self.encode(step, &mut compute)?;
         }
         drop(compute);
-        self.gpu.submit(encoder)?;
-        Ok(())
+        let index = self.gpu.submit(encoder)?;
+        self.submissions
+            .borrow_mut()
+            .add(&self.gpu, index, sequences.len() as u64)
     }
 
     /// Runs passes one by one, with their milliseconds when there is a timer.
@@ -601,6 +623,7 @@ impl Simulation {
                 .map_or(time.limited_by, AdaptiveSteps::usual_limit),
             adaptive,
             particles: pending.particles,
+            boundary_particles: self.scene.walls.len() as u32,
             overflow: u64::from(overflow.since_last_frame),
             convergence: by_name
                 .get("convergence")

@@ -2,9 +2,9 @@
 //! records rounds of several steps and one search. The device leaves out what a round has too many of
 //! (`shaders/storage/lists/decide.wgsl`), so how long rounds are changes no bit.
 
+use super::Simulation;
 use super::passes::Step;
 use super::segments::Segment;
-use super::{STEPS_PER_SUBMISSION, Simulation};
 use crate::error::Result;
 use crate::neighbors::layout::ListState;
 use crate::neighbors::lists;
@@ -89,27 +89,33 @@ impl Simulation {
             return Ok(());
         }
         self.begin_steps()?;
-        let most = STEPS_PER_SUBMISSION.min(steps);
-        let round = match lists::every_step(&self.scene) {
-            true => 1,
-            false => ((ROOM * self.served).ceil() as u64).min(most),
-        };
-        let mut one: Vec<&[Step]> = Vec::new();
-        for step in 0..round {
-            one.push(if step % 2 == 0 {
+        let mut left = steps as f64;
+        while left > 0.0 {
+            let most = self.most_steps().min(steps);
+            let round = match lists::every_step(&self.scene) {
+                true => 1,
+                false => ((ROOM * self.served).ceil() as u64).min(most),
+            };
+            let made = self.served.min(round as f64);
+            let rounds = ((left / made).ceil() as u64).min(most / round);
+            left -= rounds as f64 * made;
+            self.submit(&self.round(round).repeat(rounds as usize))?;
+        }
+        Ok(())
+    }
+
+    /// So many steps and a search.
+    fn round(&self, steps: u64) -> Vec<&[Step]> {
+        let mut round: Vec<&[Step]> = Vec::new();
+        for step in 0..steps {
+            round.push(if step % 2 == 0 {
                 &self.passes.step
             } else {
                 &self.passes.step_back
             });
         }
-        one.push(&self.passes.start);
-        let mut rounds = (steps as f64 / self.served).ceil() as u64;
-        while rounds > 0 {
-            let now = rounds.min(STEPS_PER_SUBMISSION / round);
-            rounds -= now;
-            self.submit(&one.repeat(now as usize))?;
-        }
-        Ok(())
+        round.push(&self.passes.start);
+        round
     }
 
     /// Lets the device step until it has made all steps that were submitted.

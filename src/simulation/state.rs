@@ -295,6 +295,11 @@ impl Simulation {
         self.dated(index, sent)
     }
 
+    /// What colors particles from now on, by id, where the scene's colors are [`crate::scene::column::Source::Given`].
+    pub fn give_column(&self, values: &[f32]) -> Result<()> {
+        self.put("given_column", Some(bytemuck::cast_slice(values)))
+    }
+
     /// Writes bytes to the beginning of a buffer, where both are there.
     fn put(&self, name: &str, bytes: Option<&[u8]>) -> Result<()> {
         match bytes {

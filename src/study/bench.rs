@@ -1,18 +1,20 @@
 //! Runs scenes for a study: states to start from, pictures, and times of several grids side by side.
 
 use std::io::Write as _;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::{DVec3, Vec3};
 use image::RgbaImage;
 use serde_json::json;
 
+use super::Settings;
 use super::measure::Effort;
 use super::page::{Cell, Page, Table};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::gpu::device::{Identity, Limits};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::neighbors::{ADDRESSINGS, STORAGES};
-use crate::output::{columns_named, compose_picture};
+use crate::output::{columns_named, compose_picture, interrupt};
 use crate::plan::{Plan, Wanted};
 use crate::render::Overlay;
 use crate::scene::model::View;
@@ -20,23 +22,71 @@ use crate::scene::{Neighbors, Particles, Scene};
 use crate::simulation::Simulation;
 use crate::simulation::frame::{Frame, Values};
 
-/// The adapter that a study uses.
+/// The adapter that a study uses, and what it tells.
 pub struct Bench {
     pub choice: AdapterChoice,
     pub limits: Limits,
     identity: Identity,
     software: bool,
+    quiet: bool,
+    /// What is under way.
+    now: Arc<Mutex<String>>,
 }
 
 impl Bench {
-    pub fn open(choice: &AdapterChoice) -> Result<Self> {
-        let gpu = Gpu::open(choice, false)?;
+    /// From now on the first Ctrl-C ends the study with what was finished.
+    pub fn open(settings: &Settings) -> Result<Self> {
+        let now: Arc<Mutex<String>> = Arc::default();
+        let (under_way, quiet) = (now.clone(), settings.quiet);
+        interrupt::listen(move || {
+            let now = under_way.lock().unwrap_or_else(PoisonError::into_inner);
+            if !quiet {
+                tell(&format!(
+                    "stopping; finished parts are kept ({now}); {}",
+                    interrupt::AGAIN
+                ));
+            }
+        });
+        let gpu = Gpu::open(&settings.adapter, false)?;
         Ok(Self {
-            choice: choice.clone(),
+            quiet,
+            now,
+            choice: settings.adapter.clone(),
             limits: gpu.limits,
             identity: Identity::of(&gpu.adapter),
             software: gpu.is_software(),
         })
+    }
+
+    /// Tells on standard error what is under way.
+    pub fn tell(&self, text: &str) {
+        *self.now.lock().unwrap_or_else(PoisonError::into_inner) = text.to_owned();
+        if !self.quiet {
+            tell(text);
+        }
+    }
+
+    /// An error where work was left undone because of Ctrl-C.
+    pub fn check(&self) -> Result<()> {
+        match interrupt::heeded() {
+            true => Err(Error::interrupted("")),
+            false => Ok(()),
+        }
+    }
+
+    /// The device anew; none after Ctrl-C.
+    pub fn gpu(&self) -> Result<Gpu> {
+        match interrupt::asked() {
+            true => Err(Error::interrupted("")),
+            false => Gpu::open(&self.choice, false),
+        }
+    }
+
+    /// A simulation that gives up after Ctrl-C.
+    pub fn with_plan(&self, gpu: Gpu, scene: &Scene, plan: &Plan) -> Result<Simulation> {
+        let mut simulation = Simulation::new(gpu, scene, plan)?;
+        simulation.stop_when(Some(interrupt::asked));
+        Ok(simulation)
     }
 
     /// Name, kind and driver of the adapter, in one line.
@@ -95,12 +145,12 @@ impl Bench {
     }
 
     pub fn simulation(&self, scene: &Scene, wanted: &Wanted) -> Result<Simulation> {
-        let gpu = Gpu::open(&self.choice, false)?;
+        let gpu = self.gpu()?;
         let plan = Plan::new(scene, &gpu.limits, wanted)?;
         if let Some(why) = &plan.lists_left_out {
-            progress(&format!("{}: {why}", scene.name));
+            self.tell(&format!("{}: {why}", scene.name));
         }
-        Simulation::new(gpu, scene, &plan)
+        self.with_plan(gpu, scene, &plan)
     }
 
     /// Runs a scene; `each` sees every frame's time (seconds) and particles (local coordinates, in order of id).
@@ -183,8 +233,7 @@ pub fn rounds(count: u32) -> String {
     }
 }
 
-/// Tells on standard error what is under way.
-pub fn progress(text: &str) {
+fn tell(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");
 }
 

@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::bench::{Bench, progress};
+use super::bench::Bench;
 use super::measure::{Effort, Entry, Outcome, Times, with_steps_per_frame};
 use super::page::{Cell, Page, Table};
+use super::parts::{self, Part};
 use super::scenes;
 use super::{Settings, Size};
 use crate::error::Result;
@@ -25,7 +26,7 @@ const WAYS: [(&str, &str); 6] = [
     ("our default: two passes, neighbor lists", "sliced-counting+lists"),
 ];
 
-struct Scale {
+pub struct Scale {
     /// Grains along a side of the floor; the bed has a quarter as many layers.
     columns: u32,
     effort: Effort,
@@ -49,12 +50,34 @@ fn scale(size: Size) -> Scale {
     }
 }
 
+/// What parts share: the bed that all of them measure.
+pub struct Shared {
+    scale: Scale,
+    bed: Scene,
+}
+
+pub const PARTS: &[Part<Shared>] = &[
+    Part {
+        name: "ways",
+        run: |page, bench, shared| ways(page, bench, &shared.scale, &shared.bed),
+    },
+    Part {
+        name: "deterministic",
+        run: |page, bench, shared| deterministic(page, bench, &shared.scale, &shared.bed),
+    },
+    Part {
+        name: "frames_per_second",
+        run: |page, bench, shared| rate(page, bench, &shared.scale, &shared.bed),
+    },
+];
+
 pub fn green(settings: &Settings) -> Result<PathBuf> {
+    let parts = parts::chosen("green", PARTS, &settings.cases)?;
     let title = "Green 2012, *Particle Simulation using CUDA*, beside Sliceflow";
     let mut page = Page::create(&settings.folder, "green", title, settings.force)?;
-    let bench = Bench::open(&settings.adapter)?;
+    let bench = Bench::open(settings)?;
     let scale = scale(settings.size);
-    let bed = settled_bed(&bench, &scale)?;
+    let bed = settled_bed(&bench, &scale).map_err(parts::nothing_finished)?;
     let grains = count(bed.capacity.into());
     page.paragraph(format!(
         "A bed of {grains} grains at rest in a cube with clamping walls; spring, dashpot and shear act between grains, and \
@@ -66,15 +89,12 @@ pub fn green(settings: &Settings) -> Result<PathBuf> {
         }
     ));
     bench.describe(&mut page, scale.effort);
-    ways(&mut page, &bench, &scale, &bed)?;
-    deterministic(&mut page, &bench, &scale, &bed)?;
-    rate(&mut page, &bench, &scale, &bed)?;
-    page.finish()
+    parts::run(page, &bench, &mut Shared { scale, bed }, &parts, |_, _| {})
 }
 
 /// Green's sample in the steady state: grains on the whole floor of a cube, after some steps.
 fn settled_bed(bench: &Bench, scale: &Scale) -> Result<Scene> {
-    progress("green: a bed settles");
+    bench.tell("green: a bed settles");
     let n = scale.columns;
     let mut file = scenes::base("green", [n; 3]);
     file["domain"]["walls"] = "clamp".into();
@@ -129,7 +149,7 @@ fn ways(page: &mut Page, bench: &Bench, scale: &Scale, bed: &Scene) -> Result<()
             }
         }
     }
-    progress(&format!("green: times of {} grids and orders", entries.len()));
+    bench.tell(&format!("green: times of {} grids and orders", entries.len()));
     let there: Vec<bool> = entries.iter().map(Option::is_some).collect();
     let entries: Vec<Entry> = entries.into_iter().flatten().collect();
     let mut outcomes = bench.measure(&entries, scale.effort).into_iter();
@@ -188,7 +208,7 @@ fn deterministic(page: &mut Page, bench: &Bench, scale: &Scale, bed: &Scene) -> 
          `neighbors.deterministic: false` they keep the order in which the device's threads arrived; `radix` and \
          `bitonic` are repeatable as they are. No lists: with them, the cost falls on the few steps that search.",
     );
-    progress("green: repeatable results");
+    bench.tell("green: repeatable results");
     let [(_, sorted), _] = orders(bed);
     let bed = scenes::replaced(bed, sorted);
     let mut entries = Vec::new();
@@ -231,7 +251,7 @@ fn rate(page: &mut Page, bench: &Bench, scale: &Scale, bed: &Scene) -> Result<()
         "A frame of Green's sample is one step and one picture. Ours are 640 × 480 pixels, smoothed, with shadows, and \
          their pixels are brought back to the host; he draws point sprites into a window.",
     );
-    progress("green: frames a second");
+    bench.tell("green: frames a second");
     let [(_, sorted), _] = orders(bed);
     let bed = scenes::replaced(bed, sorted);
     let mut table = Table::new(["machine", "grid", "grains", "frames a second", "source"]);

@@ -4,7 +4,6 @@ use std::time::Instant;
 
 use super::bench::{Bench, first_line};
 use crate::error::Result;
-use crate::gpu::Gpu;
 use crate::gpu::timing::median;
 use crate::plan::{Plan, Wanted};
 use crate::scene::Scene;
@@ -162,7 +161,7 @@ struct Measured {
 impl Measured {
     fn new(bench: &Bench, entry: &Entry, effort: Effort) -> Result<Self> {
         let scene = with_steps_per_frame(&entry.scene, effort.steps);
-        let gpu = Gpu::open(&bench.choice, false)?;
+        let gpu = bench.gpu()?;
         let plan = Plan::new(&scene, &gpu.limits, &Wanted::default())?.with_its_lists()?;
         let is_search = |shader: &str| shader.starts_with("cells/") || shader.starts_with("storage/");
         let search = plan
@@ -172,7 +171,7 @@ impl Measured {
             .map(|row| row.pass.entry.clone())
             .collect();
         let mut measured = Self {
-            simulation: Simulation::new(gpu, &scene, &plan)?,
+            simulation: bench.with_plan(gpu, &scene, &plan)?,
             search,
             step_ms: Vec::new(),
             passes: Vec::new(),

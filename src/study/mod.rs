@@ -8,19 +8,59 @@ mod green;
 mod harada;
 pub(crate) mod measure;
 mod page;
+mod parts;
 mod rojas;
 mod scenes;
 mod stability;
 
 use std::path::PathBuf;
 
-pub use accuracy::accuracy;
-pub use green::green;
-pub use harada::harada;
-pub use rojas::rojas;
-pub use stability::stability;
-
+use crate::error::Result;
 use crate::gpu::AdapterChoice;
+
+/// A study. To add one: a row of [`STUDIES`].
+pub struct Study {
+    /// What `sliceflow study NAME` takes.
+    pub name: &'static str,
+    pub about: &'static str,
+    /// Names of the parts that can be run alone.
+    pub cases: fn() -> Vec<&'static str>,
+    /// Gives the path of the page.
+    pub run: fn(&Settings) -> Result<PathBuf>,
+}
+
+pub const STUDIES: &[Study] = &[
+    Study {
+        name: "harada",
+        about: "Harada 2007: the sliced grid's memory and times",
+        cases: || parts::names(harada::PARTS),
+        run: harada::harada,
+    },
+    Study {
+        name: "green",
+        about: "Green 2012: atomics, scan and sort",
+        cases: || parts::names(green::PARTS),
+        run: green::green,
+    },
+    Study {
+        name: "accuracy",
+        about: "Errors against theory and experiment, beside what they cost",
+        cases: || accuracy::cases::CASES.iter().map(|case| case.name).collect(),
+        run: accuracy::accuracy,
+    },
+    Study {
+        name: "rojas",
+        about: "Rojas 2013: real-time ratio of a dam break",
+        cases: || parts::names(rojas::PARTS),
+        run: rojas::rojas,
+    },
+    Study {
+        name: "stability",
+        about: "Longest stable steps, long rests and hard cases of every solver",
+        cases: || parts::names(stability::PARTS),
+        run: stability::stability,
+    },
+];
 
 /// How much is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,12 +73,18 @@ pub enum Size {
     Full,
 }
 
-/// What a study is told.
+/// What a study is asked for.
 #[derive(Debug, Clone)]
 pub struct Settings {
+    /// Names of the parts to run; all where there is none.
+    pub cases: Vec<String>,
+    /// Of `accuracy`, as each case counts it; the case's own where there is none.
+    pub resolutions: Vec<u32>,
     pub size: Size,
     pub folder: PathBuf,
     /// Replaces an earlier study.
     pub force: bool,
     pub adapter: AdapterChoice,
+    /// Whether nothing is told on the way.
+    pub quiet: bool,
 }

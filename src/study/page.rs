@@ -1,5 +1,6 @@
 //! A study's page: one Markdown file with its pictures beside it, and one JSON file with the same figures.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -9,12 +10,21 @@ use crate::error::{Error, Result};
 use crate::output::text::{bytes, count};
 use crate::output::write_file;
 
-/// A page under way; on disk when it is finished. Pictures are on disk when they are added.
+/// A page under way; on disk when it is saved. Pictures are on disk when they are added.
 pub struct Page {
     folder: PathBuf,
     name: &'static str,
     text: String,
     data: Map<String, Value>,
+    /// Pictures that are on disk.
+    pictures: BTreeSet<String>,
+}
+
+/// A place on a page to come back to.
+#[derive(Debug, Clone, Copy)]
+pub struct Mark {
+    text: usize,
+    values: usize,
 }
 
 /// One cell of a table: what the page shows and what the JSON says.
@@ -159,6 +169,7 @@ impl Page {
             name,
             text: format!("# {title}\n"),
             data: Map::new(),
+            pictures: BTreeSet::new(),
         };
         if !replace && page.path("md").exists() {
             return Err(Error::usage(
@@ -193,20 +204,39 @@ impl Page {
         assert!(before.is_none(), "`{key}` is in the JSON twice");
     }
 
-    /// A picture, which `save` writes.
+    /// A picture, which `save` writes unless it is there since an earlier call.
     pub fn picture(
         &mut self,
         file: &str,
         caption: &str,
         save: impl FnOnce(&Path) -> Result<()>,
     ) -> Result<()> {
-        save(&self.folder.join(file))?;
+        if self.pictures.insert(file.to_owned()) {
+            save(&self.folder.join(file))?;
+        }
         let _ = write!(self.text, "\n![{caption}]({file})\n\n*{caption}*\n");
         Ok(())
     }
 
+    /// Where the page ends now.
+    pub fn mark(&self) -> Mark {
+        Mark {
+            text: self.text.len(),
+            values: self.data.len(),
+        }
+    }
+
+    /// Takes back what was added since; pictures stay on disk.
+    pub fn back_to(&mut self, mark: Mark) {
+        self.text.truncate(mark.text);
+        self.data = std::mem::take(&mut self.data)
+            .into_iter()
+            .take(mark.values)
+            .collect();
+    }
+
     /// Writes page and JSON; gives the page's path.
-    pub fn finish(self) -> Result<PathBuf> {
+    pub fn save(&self) -> Result<PathBuf> {
         let path = self.path("md");
         let mut json = serde_json::to_vec_pretty(&self.data).expect("keys are text");
         json.push(b'\n');
@@ -235,7 +265,7 @@ mod tests {
         page.table("times", &table);
         page.picture("a.png", "A picture", |path| write_file(path, b"png"))
             .unwrap();
-        let path = page.finish().unwrap();
+        let path = page.save().unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(text.contains("| sliced\\|pool | 12.3 | 1 MiB | – |"), "{text}");
         assert!(text.contains("| --- | --: | --: | --- |"), "{text}");
@@ -251,7 +281,7 @@ mod tests {
     fn a_study_is_not_replaced_unasked() {
         let folder = tempfile::tempdir().unwrap();
         let create = |replace| Page::create(folder.path(), "trial", "A trial", replace);
-        create(false).unwrap().finish().unwrap();
+        create(false).unwrap().save().unwrap();
         let refused = create(false).map(|_| ()).unwrap_err();
         assert_eq!(refused.exit_code(), 2);
         assert!(refused.to_string().contains("--force"), "{refused}");

@@ -5,8 +5,9 @@ use std::time::Instant;
 
 use serde_json::{Value, json};
 
-use super::bench::{Bench, first_line, progress};
+use super::bench::{Bench, first_line};
 use super::page::{Cell, Page, Table};
+use super::parts::{self, Part};
 use super::{Settings, Size, scenes};
 use crate::error::Result;
 use crate::gpu::timing::median;
@@ -56,7 +57,7 @@ fn shipped() -> Value {
     json!({ "viscosity": 0.05, "artificial_viscosity": 0.05 })
 }
 
-struct Scale {
+pub struct Scale {
     /// Particles along a side of the column of water.
     across: &'static [u32],
     /// Intervals that are timed.
@@ -87,11 +88,23 @@ fn scale(size: Size) -> Scale {
     }
 }
 
+pub const PARTS: &[Part<Scale>] = &[
+    Part {
+        name: "figure_10",
+        run: |page, bench, scale| ratios(page, bench, scale),
+    },
+    Part {
+        name: "picture",
+        run: |page, bench, scale| picture(page, bench, scale),
+    },
+];
+
 pub fn rojas(settings: &Settings) -> Result<PathBuf> {
+    let parts = parts::chosen("rojas", PARTS, &settings.cases)?;
     let title = "Rojas 2013, a dam break in the unit square, beside Sliceflow";
     let mut page = Page::create(&settings.folder, "rojas", title, settings.force)?;
-    let bench = Bench::open(&settings.adapter)?;
-    let scale = scale(settings.size);
+    let bench = Bench::open(settings)?;
+    let mut scale = scale(settings.size);
     page.paragraph(format!(
         "A square column of water, half a metre on a side, collapses in the unit square between no-slip walls. The \
          real-time ratio (RTR) is computing time over simulated time, as in the paper's Figure 10: one is real time, less \
@@ -101,8 +114,7 @@ pub fn rojas(settings: &Settings) -> Result<PathBuf> {
         scale.intervals, scale.seconds
     ));
     bench.environment(&mut page);
-    ratios(&mut page, &bench, &scale)?;
-    page.finish()
+    parts::run(page, &bench, &mut scale, &parts, |_, _| {})
 }
 
 /// The dam for `frames` intervals of so many seconds.
@@ -167,7 +179,7 @@ fn ratios(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
             let interval = scale.interval(across);
             let scene = dam(across, way, scale.intervals + 1, interval)?;
             let particles = scene.particles.len() as u64;
-            progress(&format!("rojas: {} particles, {}", count(particles), way.name));
+            bench.tell(&format!("rojas: {} particles, {}", count(particles), way.name));
             let outcome = times(bench, &scene).map_err(|error| first_line(&error));
             let ratio = |seconds: f64| seconds / interval;
             let seconds = outcome.as_ref().map_or(&[][..], Vec::as_slice);
@@ -205,17 +217,17 @@ fn ratios(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
     );
     page.picture("rojas_speed.png", "Particle updates a second.", |path| {
         rates.save(path)
-    })?;
-    picture(page, bench, scale)
+    })
 }
 
 /// The shipped way in motion.
 fn picture(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
     let (across, moment) = scale.shown;
-    progress(&format!(
+    bench.tell(&format!(
         "rojas: picture of {} particles",
         count(u64::from(across).pow(2))
     ));
+    page.heading("The dam in motion");
     let scene = dam(across, &WAYS[2], 2, moment)?;
     let Some(picture) = bench.picture(&scene, View::Scene, 1)? else {
         return Ok(());

@@ -28,7 +28,10 @@ pub fn slice_profile(found: &Found) -> Plot {
         }
     }
     lines.add("occupied voxels", along(&|slice| slice.figures.occupied));
-    lines.add("particles", along(&|slice| slice.figures.particles));
+    lines.add("particles", along(&Slice::particles));
+    if !found.subject.scene.walls.is_empty() {
+        lines.add("boundary particles", along(&|slice| slice.boundary));
+    }
     let axis = ["x", "y", "z"][census.grid.axis as usize];
     lines.onto(Plot::new(
         format!("Slices of {}", title(found)),

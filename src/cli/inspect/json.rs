@@ -17,7 +17,8 @@ pub fn report(found: &Found) -> Value {
         "scene": subject.scene.name,
         "frame": subject.frame,
         "time_s": subject.simulated.then_some(subject.time),
-        "particles": census.particles,
+        "particles": subject.scene.particles.len(),
+        "boundary_particles": subject.scene.walls.len(),
         "particles_quarantined": census.quarantined,
         "slicing_axis": (["x", "y", "z"][census.grid.axis as usize]),
         "voxel_side": census.grid.side,
@@ -53,7 +54,11 @@ pub fn report(found: &Found) -> Value {
     object.insert("memory".into(), memory.collect());
     object.insert("slices".into(), slices(found));
     if !subject.over_time.is_empty() {
-        let samples = subject.over_time.iter().map(|one| sample(one, &found.grids));
+        let boundary = subject.scene.walls.len();
+        let samples = subject
+            .over_time
+            .iter()
+            .map(|one| sample(one, boundary, &found.grids));
         object.insert("over_time".into(), samples.collect());
     }
     report
@@ -114,7 +119,11 @@ fn slices(found: &Found) -> Value {
             let grids = found.grids.iter();
             grids.map(|one| (one.name.clone(), voxels(one).into())).collect()
         };
-        let mut report = json!({ "slice": slice.at, "particles": slice.figures.particles });
+        let mut report = json!({
+            "slice": slice.at,
+            "particles": slice.particles(),
+            "boundary_particles": slice.boundary,
+        });
         let object = report.as_object_mut().expect("an object");
         object.extend(histogram(&slice.figures));
         object.insert("voxels_allocated".into(), by_grid(&|_, voxels| voxels).into());
@@ -125,7 +134,7 @@ fn slices(found: &Found) -> Value {
     found.subject.census.slices().into_iter().map(slice).collect()
 }
 
-fn sample(one: &Sample, grids: &[Measured]) -> Value {
+fn sample(one: &Sample, boundary: usize, grids: &[Measured]) -> Value {
     let by_grid = |of: fn(&(u64, u64)) -> u64| -> Map<String, Value> {
         let names = grids.iter().map(|grid| grid.name.clone());
         names.zip(one.grids.iter().map(|grid| of(grid).into())).collect()
@@ -133,7 +142,8 @@ fn sample(one: &Sample, grids: &[Measured]) -> Value {
     let mut report = json!({
         "frame": one.frame,
         "time_s": one.time,
-        "particles": one.figures.particles,
+        "particles": one.particles,
+        "boundary_particles": boundary,
     });
     let object = report.as_object_mut().expect("an object");
     object.extend(histogram(&one.figures));

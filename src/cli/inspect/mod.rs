@@ -2,6 +2,7 @@
 
 #[cfg(feature = "plots")]
 mod charts;
+mod csv;
 mod files;
 mod json;
 mod measure;
@@ -12,10 +13,12 @@ mod tables;
 use std::path::PathBuf;
 
 use super::device_args::DeviceArgs;
+use super::quiet_args::QuietArgs;
 use super::scene_args::SceneArgs;
 use super::{grid, stdout};
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
+use crate::output::progress::Style;
 use crate::scene::Scene;
 use files::Files;
 use measure::Measured;
@@ -48,7 +51,7 @@ pub struct Args {
     slices: bool,
     /// Writes everything into this folder: occupancy.json, occupancy.md, each grid's memory as a heatmap, a profile of
     /// the slices, the allocated slices in the scene, and with --every a chart over time
-    #[arg(long, value_name = "DIR")]
+    #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Replaces those files
     #[arg(long, requires = "out")]
@@ -58,6 +61,11 @@ pub struct Args {
     /// Prints JSON
     #[arg(long)]
     json: bool,
+    /// Prints CSV: the memory of each grid, with --every the table over time, with --slices that of the slices
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
+    #[command(flatten)]
+    quiet: QuietArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -65,7 +73,8 @@ Examples:
   sliceflow inspect harada_figure_2 --frame 30 --grid uniform-pool sliced-pool
   sliceflow inspect harada_figure_2_small --every 2 --grid sliced-pool rows-pool --out out/figure_6
   sliceflow inspect cloud.ply --radius 0.02 --grid sliced-counting --out out/cloud
-  sliceflow inspect my_scene.json --json";
+  sliceflow inspect my_scene.json --json
+  sliceflow inspect dam_break_2d --every 10 --csv > over_time.csv";
 
 /// What was found about one state.
 struct Found {
@@ -74,6 +83,12 @@ struct Found {
 }
 
 pub fn main(args: &Args) -> Result<()> {
+    if args.csv && args.slices && args.every.is_some() {
+        return Err(Error::usage(
+            "--csv prints one table, and --every and --slices ask for two",
+            "leave one of them out, or take everything as JSON: --json",
+        ));
+    }
     let scene = subject::load(args)?;
     let grids = scenes_through(&scene, &args.grid)?;
     if args.out.is_some() && cfg!(not(feature = "plots")) {
@@ -86,7 +101,7 @@ pub fn main(args: &Args) -> Result<()> {
         None => None,
     };
     let gpu = Gpu::open(&args.device.adapter(), false)?;
-    let subject = Subject::reach(&gpu, scene, &grids, args.every)?;
+    let subject = Subject::reach(&gpu, scene, &grids, args.every, args.quiet.style(Style::Bar))?;
     let mut measured = Vec::new();
     for scene in grids {
         measured.push(Measured::new(&gpu, &subject, scene, files.is_some())?);
@@ -100,6 +115,13 @@ pub fn main(args: &Args) -> Result<()> {
     }
     if args.json {
         stdout::print_json(&json::report(&found))
+    } else if args.csv {
+        let table = match (args.slices, args.every) {
+            (true, _) => "slices",
+            (false, Some(_)) => "over_time",
+            (false, None) => "memory",
+        };
+        stdout::print(&csv::table(&json::report(&found)[table]))
     } else {
         stdout::print(&tables::report(&found, args.slices).to_text())
     }

@@ -30,6 +30,7 @@ pub struct Sample {
     pub frame: u32,
     /// Seconds.
     pub time: f64,
+    pub particles: u64,
     pub figures: Figures,
     pub octree: Octree,
     /// Voxels that have memory and bytes of each grid.
@@ -71,10 +72,16 @@ pub fn load(args: &Args) -> Result<Scene> {
 
 impl Subject {
     /// Simulates up to the scene's last frame.
-    pub fn reach(gpu: &Gpu, scene: Scene, grids: &[Scene], every: Option<u32>) -> Result<Self> {
+    pub fn reach(
+        gpu: &Gpu,
+        scene: Scene,
+        grids: &[Scene],
+        every: Option<u32>,
+        style: progress::Style,
+    ) -> Result<Self> {
         let last = scene.time.frames - 1;
         let plan = Plan::new(&scene, &gpu.limits, &Wanted::default())?;
-        let mut progress = Progress::new(progress::Style::Bar, scene.time.frames);
+        let mut progress = Progress::new(style, scene.time.frames);
         for note in scene.notes.iter().chain(plan.told()) {
             progress.note(note);
         }
@@ -92,7 +99,8 @@ impl Subject {
                 take(frame);
             }
             if every.is_some_and(|every| index % every == 0 || index == last) {
-                let positions = simulation.particles()?.position;
+                let mut positions = simulation.particles()?.position;
+                positions.extend_from_slice(&scene.walls.position);
                 over_time.push(Sample::of(&scene, grids, index, &positions));
             }
         }
@@ -109,7 +117,7 @@ impl Subject {
         let particles = simulation.particles()?;
         let simulated = last > 0 || scene.time.limited_by != NOTHING_MOVES;
         let scene = still(scene, particles, time);
-        let census = Census::of(&scene, &scene.positions());
+        let census = Census::with_boundary(&scene, &scene.positions(), scene.walls.len());
         Ok(Self {
             simulated,
             scene,
@@ -134,6 +142,7 @@ impl Sample {
         Self {
             frame,
             time: f64::from(frame) / scene.time.fps,
+            particles: positions.len() as u64 - scene.walls.len() as u64,
             figures: census.figures(),
             octree: census.octree(),
             grids: grids.iter().map(need).collect(),

@@ -56,10 +56,14 @@ fn head(found: &Found) -> String {
         true => format!("frame {}, t = {:.3} s, ", subject.frame, subject.time),
         false => String::new(),
     };
+    let boundary = match subject.scene.walls.len() {
+        0 => String::new(),
+        walls => format!(" and {} boundary particles", count(walls as u64)),
+    };
     format!(
-        "{}: {moment}{} particles, {} voxels in the domain",
+        "{}: {moment}{} particles{boundary}, {} voxels in the domain",
         subject.scene.name,
-        count(subject.census.particles.into()),
+        count(subject.scene.particles.len() as u64),
         count(domain)
     )
 }
@@ -130,7 +134,7 @@ fn over_time(found: &Found) -> Table {
         let cells = [
             sample.frame.to_string(),
             format!("{:.3} s", sample.time),
-            count(sample.figures.particles),
+            count(sample.particles),
             count(sample.figures.occupied),
             count(sample.octree.nodes()),
         ];
@@ -141,11 +145,22 @@ fn over_time(found: &Found) -> Table {
 }
 
 fn by_slice(found: &Found) -> Table {
-    let heads = ["slice", "particles", "occupied", "with 1", "2", "3", "4", "more"].map(str::to_owned);
+    let heads = [
+        "slice",
+        "particles",
+        "boundary",
+        "occupied",
+        "with 1",
+        "2",
+        "3",
+        "4",
+        "more",
+    ];
+    let heads = heads.map(str::to_owned);
     let grids = found.grids.iter().map(|one| one.name.clone());
     let mut table = Table::with_heads(heads.into_iter().chain(grids).map(|head| (head, Right)));
-    let row = |slice: String, figures: &Figures, voxels: &[Option<u64>]| {
-        let figures = [figures.particles, figures.occupied]
+    let row = |slice: String, boundary: u64, figures: &Figures, voxels: &[Option<u64>]| {
+        let figures = [figures.particles - boundary, boundary, figures.occupied]
             .into_iter()
             .chain(figures.with)
             .chain([figures.with_more]);
@@ -159,15 +174,16 @@ fn by_slice(found: &Found) -> Table {
     for slice in found.subject.census.slices() {
         let voxels: Vec<_> = found.grids.iter().map(|one| one.in_slice(slice.at)).collect();
         if slice.figures.particles > 0 || voxels.iter().flatten().any(|&voxels| voxels > 0) {
-            table.row(row(slice.at.to_string(), &slice.figures, &voxels));
+            table.row(row(slice.at.to_string(), slice.boundary, &slice.figures, &voxels));
         }
     }
     let total = found.subject.census.figures();
+    let boundary = found.subject.census.boundary.values().sum();
     let voxels: Vec<_> = found
         .grids
         .iter()
         .map(|one| Some(one.allocation.voxels))
         .collect();
-    table.row(row("all".into(), &total, &voxels));
+    table.row(row("all".into(), boundary, &total, &voxels));
     table
 }

@@ -32,7 +32,10 @@ pub struct Census {
     /// With exactly the room that this state needs.
     pub grid: Grid,
     pub dimensions: Dimensions,
+    /// All that voxels hold, boundary particles included.
     pub particles: u32,
+    /// How many of them are boundary particles, by slice.
+    pub boundary: BTreeMap<i32, u64>,
     /// Particles in no voxel: farther away than the search follows.
     pub quarantined: u32,
     /// By slice, then by w, then by u.
@@ -45,6 +48,15 @@ pub struct Slice {
     /// Coordinate along the slicing axis; the domain's slices count from 0.
     pub at: i32,
     pub figures: Figures,
+    /// How many of its particles are boundary particles.
+    pub boundary: u64,
+}
+
+impl Slice {
+    /// Particles, boundary particles apart.
+    pub fn particles(&self) -> u64 {
+        self.figures.particles - self.boundary
+    }
 }
 
 /// Voxels by how many particles they hold; of one slice or of all.
@@ -75,6 +87,11 @@ impl Figures {
 impl Census {
     /// Counts local positions (metres) into the voxels of a scene's grid.
     pub fn of(scene: &Scene, positions: &[Vec3]) -> Self {
+        Self::with_boundary(scene, positions, 0)
+    }
+
+    /// The same where the last `boundary` positions are those of boundary particles.
+    pub fn with_boundary(scene: &Scene, positions: &[Vec3], boundary: usize) -> Self {
         let (grid, room) = super::least(scene, positions);
         let grid = grid.with_room(room);
         let bounded = Search::new(scene, grid, 0).flags.contains(&"bounded");
@@ -82,6 +99,10 @@ impl Census {
             true => Some(grid.voxel_in_domain(position)),
             false => grid.voxel(position),
         };
+        let mut by_slice = BTreeMap::new();
+        for [_, slice, _] in positions[positions.len() - boundary..].iter().filter_map(voxel) {
+            *by_slice.entry(slice).or_default() += 1;
+        }
         let mut voxels: Vec<[i32; 3]> = positions
             .par_iter()
             .filter_map(voxel)
@@ -100,6 +121,7 @@ impl Census {
             grid,
             dimensions: scene.dimensions,
             particles: positions.len() as u32,
+            boundary: by_slice,
             quarantined,
             voxels: voxels.collect(),
         }
@@ -116,7 +138,11 @@ impl Census {
         for slice in self.occupied_slices() {
             slices.insert(slice[0].at[1], Figures::of(slice));
         }
-        let slice = |(at, figures)| Slice { at, figures };
+        let slice = |(at, figures)| Slice {
+            at,
+            figures,
+            boundary: self.boundary.get(&at).copied().unwrap_or(0),
+        };
         slices.into_iter().map(slice).collect()
     }
 

@@ -81,6 +81,8 @@ pub mod samples {
             step_s: 1e-3,
             step_limited_by: "",
             adaptive: None,
+            boundary_particles: 0,
+            convergence: None,
             particles: 2,
             overflow: 0,
             quarantined: 0,

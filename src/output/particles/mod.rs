@@ -24,6 +24,7 @@ use super::workers::Workers;
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::scene::column::{COLUMNS, Column, VECTORS};
+use crate::scene::synonyms::suggest_word;
 use crate::simulation::frame::Frame;
 
 /// What particle files hold unless `--columns` says otherwise.
@@ -45,11 +46,8 @@ pub fn columns_named<'a>(names: impl IntoIterator<Item = &'a str>) -> Result<Vec
             .chain(COLUMNS)
             .find(|column| column.name == name)
             .ok_or_else(|| {
-                let known: Vec<_> = VECTORS.iter().chain(COLUMNS).map(|column| column.name).collect();
-                Error::usage(
-                    format!("no column is named `{name}`"),
-                    format!("choose among {}", known.join(", ")),
-                )
+                let known = VECTORS.iter().chain(COLUMNS).map(|column| column.name);
+                Error::usage(format!("no column is named `{name}`"), suggest_word(name, known))
             })?;
         if !columns.contains(found) {
             columns.push(*found);

@@ -12,16 +12,17 @@ use ::rerun::external::re_sdk_types::blueprint::components::PlayState;
 use ::rerun::{RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
 use glam::{DMat3, DVec3};
 
-use super::series::GROUPS;
+use super::series::{Group, groups};
 use super::target::APPLICATION;
 use crate::render::{Layout, Sight};
+use crate::scene::model::Storage;
 use crate::scene::{Dimensions, Scene};
 
 /// Turn of the viewer's eye away from the scene's camera, degrees, so that the camera is in sight.
 const TURN: f64 = 34.0;
 /// Distance of the viewer's eye from the middle of the domain, as a multiple of the camera's.
 const BACK: f64 = 1.4;
-/// Groups of curves that have a plot of their own at once; the others share tabs.
+/// Groups of curves, the first ones, that have a plot of their own at once; the others share tabs.
 const PLOTS: usize = 2;
 
 /// What there is to be arranged.
@@ -49,7 +50,7 @@ pub fn send(
         .with_contents(shown)
         .into();
     let eye_path = format!("{}/EyeControls3D", entity(&view));
-    let blueprint = Blueprint::new(arrange(view, contents))
+    let blueprint = Blueprint::new(arrange(view, scene, contents))
         .with_auto_views(false)
         .with_auto_layout(false)
         .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Collapsed))
@@ -73,8 +74,8 @@ pub fn send(
     Ok(())
 }
 
-/// Scene and texts on the left; picture, pool and curves on the right.
-fn arrange(scene: ContainerLike, contents: &Contents) -> ContainerLike {
+/// Scene and texts on the left; picture, pool and the curves that grains or fluids have on the right.
+fn arrange(view: ContainerLike, scene: &Scene, contents: &Contents) -> ContainerLike {
     let document = |name: &str| TextDocumentView::new(name).with_origin(format!("documents/{name}"));
     let texts = Tabs::new([
         TextLogView::new("log").with_origin("events").into(),
@@ -82,33 +83,34 @@ fn arrange(scene: ContainerLike, contents: &Contents) -> ContainerLike {
         document("scene").into(),
         document("plan").into(),
     ]);
-    let left = Vertical::new([scene, texts.into()]).with_row_shares(vec![2.6, 1.0]);
+    let left = Vertical::new([view, texts.into()]).with_row_shares(vec![2.6, 1.0]);
 
     let mut pictures: Vec<ContainerLike> = Vec::new();
     if contents.camera {
         pictures.push(Spatial2DView::new("picture").with_origin("scene/camera").into());
     }
     if contents.voxel_map {
-        pictures.push(Spatial2DView::new("index pool").with_origin("index_pool").into());
+        let name = match scene.neighbors.storage {
+            Storage::Pool => "index pool",
+            _ => "voxels in the order of memory",
+        };
+        pictures.push(Spatial2DView::new(name).with_origin("index_pool").into());
     }
-    let mut plots: Vec<ContainerLike> = Vec::new();
-    let curves = |group: &super::series::Group| -> ContainerLike {
+    let curves = |group: &Group| -> ContainerLike {
         TimeSeriesView::new(group.title)
             .with_origin(format!("statistics/{}", group.name))
             .into()
     };
-    let (first, others) = GROUPS.split_at(PLOTS);
+    let mut groups = groups(scene.fluid().is_some(), contents.statistics);
+    let mut plots: Vec<ContainerLike> = groups.by_ref().take(PLOTS).map(curves).collect();
     if contents.statistics {
-        plots.extend(first.iter().map(curves));
         plots.push(
             BarChartView::new("voxels by particles in them")
                 .with_origin("occupancy")
                 .into(),
         );
-    } else {
-        plots.extend(first[1..].iter().map(curves));
     }
-    plots.push(Tabs::new(others.iter().map(curves)).into());
+    plots.push(Tabs::new(groups.map(curves)).into());
     let figures: ContainerLike = Grid::new(plots).with_grid_columns(2).into();
     let right = if pictures.is_empty() {
         figures

@@ -63,7 +63,9 @@ impl Share {
             + triangles * TRIANGLE_BYTES
             + u64::from(frames) * (FIGURES_BYTES + moving * CHUNK_BYTES);
         let room = (budget - budget / MARGIN).saturating_sub(fixed);
-        let enough = scene.capacity.min((scene.capacity / 10).max(WORTH_A_STRIDE));
+        // Boundary particles are not shown.
+        let all = scene.first_wall();
+        let enough = all.min((all / 10).max(WORTH_A_STRIDE));
         let longest = (frames / FEWEST_FRAMES).max(1);
         let with = |stride| {
             let share = Self::with_stride(scene, pictures, room, stride);
@@ -97,12 +99,12 @@ impl Share {
             + map_side.map_or(0, |side| u64::from(side * side) + CHUNK_BYTES)
             + if boxes { box_bytes } else { 0 };
         let fit = each.saturating_sub(taken + CHUNK_BYTES) / PARTICLE_BYTES;
-        let particles = fit.min(u64::from(scene.capacity));
+        let particles = fit.min(u64::from(scene.first_wall()));
         Self {
             planned: shown * (taken + CHUNK_BYTES + particles * PARTICLE_BYTES),
             stride,
             particles: particles as u32,
-            of_particles: scene.capacity,
+            of_particles: scene.first_wall(),
             picture,
             map_side,
             boxes,

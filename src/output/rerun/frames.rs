@@ -123,7 +123,7 @@ impl Frames {
         if let Some(rate) = rate {
             figures.insert(PARTICLE_STEPS_PER_S.into(), rate.into());
         }
-        for curves in curves(&figures) {
+        for curves in curves(&figures, self.scene.fluid().is_some()) {
             let path = format!("statistics/{}", curves.group);
             let (values, names) = self.order.arrange(&curves);
             if let Some(names) = names {

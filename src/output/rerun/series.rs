@@ -6,50 +6,115 @@ use serde_json::{Map, Value};
 pub struct Group {
     pub name: &'static str,
     pub title: &'static str,
+    of: Of,
+    /// Whether a run without statistics lacks it.
+    is_measured: bool,
     curves: &'static [(&'static str, &'static str)],
 }
 
-pub const GROUPS: &[Group] = &[
+/// What has these figures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Of {
+    All,
+    Grains,
+    Fluids,
+}
+
+impl Of {
+    fn fits(self, is_fluid: bool) -> bool {
+        match self {
+            Self::All => true,
+            Self::Grains => !is_fluid,
+            Self::Fluids => is_fluid,
+        }
+    }
+}
+
+const fn group(
+    name: &'static str,
+    title: &'static str,
+    of: Of,
+    curves: &'static [(&'static str, &'static str)],
+) -> Group {
     Group {
-        name: "energy",
-        title: "energy, J",
-        curves: &[
+        name,
+        title,
+        of,
+        is_measured: false,
+        curves,
+    }
+}
+
+const fn measured(
+    name: &'static str,
+    title: &'static str,
+    of: Of,
+    curves: &'static [(&'static str, &'static str)],
+) -> Group {
+    Group {
+        is_measured: true,
+        ..group(name, title, of, curves)
+    }
+}
+
+/// The most telling ones first.
+const GROUPS: &[Group] = &[
+    measured(
+        "energy",
+        "energy, J",
+        Of::All,
+        &[
             ("kinetic_energy_j", "kinetic energy, J"),
             ("potential_energy_j", "potential energy, J"),
         ],
-    },
-    Group {
-        name: "throughput",
-        title: "particle·steps/s",
-        curves: &[(PARTICLE_STEPS_PER_S, "particle·steps/s since the start")],
-    },
-    Group {
-        name: "contacts",
-        title: "contacts",
-        curves: &[("contacts", "contacts as each particle sees them")],
-    },
-    Group {
-        name: "overlap",
-        title: "greatest overlap",
-        curves: &[("max_overlap", "greatest overlap, share of the radius")],
-    },
-    Group {
-        name: "clamped",
-        title: "clamped particles",
-        curves: &[
+    ),
+    measured(
+        "density",
+        "error of density",
+        Of::Fluids,
+        &[
+            ("density_error_mean", "mean, share of the rest density"),
+            ("density_error_max", "greatest"),
+        ],
+    ),
+    group(
+        "throughput",
+        "particle·steps/s",
+        Of::All,
+        &[(PARTICLE_STEPS_PER_S, "particle·steps/s since the start")],
+    ),
+    measured(
+        "contacts",
+        "contacts",
+        Of::Grains,
+        &[("contacts", "contacts as each grain sees them")],
+    ),
+    measured(
+        "overlap",
+        "greatest overlap",
+        Of::Grains,
+        &[("max_overlap", "greatest overlap, share of the radius")],
+    ),
+    measured(
+        "clamped",
+        "clamped particles",
+        Of::Fluids,
+        &[
             ("clamped_pressures", "pressure held at zero"),
             ("clamped_densities", "density held at its lowest"),
         ],
-    },
-    Group {
-        name: "speed",
-        title: "greatest speed",
-        curves: &[("max_speed_m_per_s", "greatest speed, m/s")],
-    },
-    Group {
-        name: "voxels",
-        title: "voxels",
-        curves: &[
+    ),
+    measured(
+        "speed",
+        "greatest speed",
+        Of::All,
+        &[("max_speed_m_per_s", "greatest speed, m/s")],
+    ),
+    measured(
+        "voxels",
+        "voxels",
+        Of::All,
+        &[
             ("voxels_allocated", "allocated"),
             ("voxels_occupied", "occupied"),
             ("voxels_with_1", "with 1 particle"),
@@ -58,43 +123,48 @@ pub const GROUPS: &[Group] = &[
             ("voxels_with_4", "with 4"),
             ("voxels_with_more", "with more"),
         ],
-    },
-    Group {
-        name: "overflow",
-        title: "overflow",
-        curves: &[
+    ),
+    group(
+        "overflow",
+        "overflow",
+        Of::All,
+        &[
             ("overflow", "particles without a slot"),
             (
                 "overflow_since_last_frame",
                 "the same, summed since the last frame",
             ),
         ],
-    },
-    Group {
-        name: "particles",
-        title: "particles",
-        curves: &[("particles", "particles")],
-    },
-    Group {
-        name: "time_step",
-        title: "time step",
-        curves: &[
+    ),
+    group(
+        "particles",
+        "particles",
+        Of::All,
+        &[
+            ("particles", "particles"),
+            ("boundary_particles", "boundary particles"),
+        ],
+    ),
+    group(
+        "time_step",
+        "time step",
+        Of::All,
+        &[
             ("step_s", "time step, s"),
             ("step_min_s", "shortest since the last frame, s"),
             ("step_max_s", "longest, s"),
         ],
-    },
-    Group {
-        name: STEP_LIMITS,
-        title: "steps by what limited them",
-        curves: &[],
-    },
-    Group {
-        name: PASSES,
-        title: "ms a pass",
-        curves: &[],
-    },
+    ),
+    group(STEP_LIMITS, "steps by what limited them", Of::All, &[]),
+    group(PASSES, "ms of each pass", Of::All, &[]),
 ];
+
+/// The plots of grains or of a fluid; without statistics fewer.
+pub fn groups(is_fluid: bool, statistics: bool) -> impl Iterator<Item = &'static Group> {
+    GROUPS
+        .iter()
+        .filter(move |group| group.of.fits(is_fluid) && (statistics || !group.is_measured))
+}
 
 /// Key of what a run measures itself, in the place of a figure of `stats.jsonl`.
 pub const PARTICLE_STEPS_PER_S: &str = "particle_steps_per_s";
@@ -112,9 +182,9 @@ pub struct Curves {
     pub values: Vec<(String, f64)>,
 }
 
-/// A frame's figures by group. `figures` is the frame's line of `stats.jsonl`; a key that no group knows is a group of
-/// its own.
-pub fn curves(figures: &Map<String, Value>) -> Vec<Curves> {
+/// The figures of grains or of a fluid by group. `figures` is the frame's line of `stats.jsonl`; a key that no group
+/// knows is a group of its own.
+pub fn curves(figures: &Map<String, Value>, is_fluid: bool) -> Vec<Curves> {
     let mut all: Vec<Curves> = Vec::new();
     let mut add = |group: &str, name: &str, value: f64| {
         let curve = (name.to_owned(), value);
@@ -129,8 +199,9 @@ pub fn curves(figures: &Map<String, Value>) -> Vec<Curves> {
     for (key, value) in figures.iter().filter(|(key, _)| !PLACE.contains(&key.as_str())) {
         match value {
             Value::Number(number) => {
-                let (group, name) = place(key);
-                add(group, name, number.as_f64().unwrap_or(f64::NAN));
+                if let Some((group, name)) = place(key, is_fluid) {
+                    add(group, name, number.as_f64().unwrap_or(f64::NAN));
+                }
             }
             Value::Object(passes) if key == "pass_ms" => {
                 for (pass, ms) in passes {
@@ -148,14 +219,18 @@ pub fn curves(figures: &Map<String, Value>) -> Vec<Curves> {
     all
 }
 
-/// Group and name of a key's curve.
-fn place(key: &str) -> (&str, &str) {
+/// Group and name of a key's curve; `None` for what grains have and fluids have not, or the other way round.
+fn place(key: &str, is_fluid: bool) -> Option<(&str, &str)> {
+    // Grains have no boundary particles.
+    if key == "boundary_particles" && !is_fluid {
+        return None;
+    }
     for group in GROUPS {
         if let Some((_, name)) = group.curves.iter().find(|(known, _)| *known == key) {
-            return (group.name, name);
+            return group.of.fits(is_fluid).then_some((group.name, name));
         }
     }
-    (key, key)
+    Some((key, key))
 }
 
 /// The curves of each group in the order in which they appeared, so that a curve keeps its place.
@@ -203,20 +278,48 @@ mod tests {
 
     #[test]
     fn figures_become_curves_and_unknown_ones_a_group_of_their_own() {
-        let found = curves(&figures(json!({
-            "frame": 3, "time_s": 0.1, "kinetic_energy_j": 2.0, "potential_energy_j": 3.0,
-            "density_error": 0.01, "pass_ms": { "push": 1.5 },
-        })));
+        let found = curves(
+            &figures(json!({
+                "frame": 3, "time_s": 0.1, "kinetic_energy_j": 2.0, "potential_energy_j": 3.0,
+                "viscosity": 0.01, "pass_ms": { "push": 1.5 },
+            })),
+            false,
+        );
         let groups: Vec<_> = found.iter().map(|curves| curves.group.as_str()).collect();
-        assert_eq!(groups, ["energy", "density_error", "passes"]);
+        assert_eq!(groups, ["energy", "viscosity", "passes"]);
         assert_eq!(found[0].values[1], ("potential energy, J".into(), 3.0));
         assert_eq!(found[2].values, [("push".into(), 1.5)]);
     }
 
     #[test]
+    fn grains_and_fluids_have_their_own() {
+        let line = figures(json!({
+            "particles": 400, "boundary_particles": 516, "max_overlap": 0.0, "contacts": 7,
+            "density_error_mean": 0.01, "density_error_max": 0.02, "clamped_pressures": 3,
+        }));
+        let names = |is_fluid| -> Vec<String> {
+            curves(&line, is_fluid)
+                .into_iter()
+                .map(|curves| curves.group)
+                .collect()
+        };
+        assert_eq!(names(true), ["particles", "density", "clamped"]);
+        assert_eq!(names(false), ["particles", "overlap", "contacts"]);
+        assert_eq!(
+            curves(&line, true)[0].values[1],
+            ("boundary particles".into(), 516.0)
+        );
+        assert_eq!(curves(&line, false)[0].values.len(), 1);
+        let first = |is_fluid, statistics| groups(is_fluid, statistics).next().unwrap().name;
+        assert_eq!((first(true, true), first(true, false)), ("energy", "throughput"));
+        assert_eq!(groups(true, true).nth(1).unwrap().name, "density");
+        assert!(groups(true, true).all(|group| group.name != "overlap"));
+    }
+
+    #[test]
     fn curves_keep_their_place() {
         let mut order = Order::default();
-        let passes = |pass_ms| curves(&figures(json!({ "pass_ms": pass_ms }))).remove(0);
+        let passes = |pass_ms| curves(&figures(json!({ "pass_ms": pass_ms })), false).remove(0);
         assert_eq!(
             order.arrange(&passes(json!({ "count": 1.0 }))).1.unwrap(),
             ["count"]

@@ -149,8 +149,12 @@ fn pool_classes(scene: &Scene) -> AnnotationContext {
 /// The plan as tables.
 fn plan_text(plan: &Plan) -> String {
     let mut text = format!(
-        "{} particles at most, {} steps a frame of {:.3e} s (limited by the {}), {} on the device\n\n",
-        count(plan.capacity.into()),
+        "{} particles{}, {} steps of {:.3e} s in each frame (limited by the {}), {} on the device\n\n",
+        count(plan.particles.into()),
+        match plan.boundary_particles {
+            0 => String::new(),
+            walls => format!(" and {} boundary particles", count(walls.into())),
+        },
         count(plan.steps_per_frame.into()),
         plan.time_step_s,
         plan.time_step_limited_by,

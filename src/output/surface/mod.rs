@@ -36,6 +36,8 @@ pub struct SurfaceSettings {
     pub format: &'static MeshFormat,
     /// Whether meshes that are there may be replaced.
     pub force: bool,
+    /// Whether no progress is shown.
+    pub quiet: bool,
 }
 
 /// What was made.
@@ -71,11 +73,23 @@ pub fn make_surfaces(recorded: &Sequence, out: &Path, settings: &SurfaceSettings
         ));
     }
     std::fs::create_dir_all(out).map_err(|reason| disk::failed(out, "create", reason))?;
-    interrupt::listen();
     let bar = Bar::new(
         "{bar:30} {pos}/{len} surfaces, {eta} left",
         recorded.frames.len() as u32,
     );
+    let (shown, quiet) = (bar.clone(), settings.quiet);
+    if quiet {
+        bar.clear();
+    }
+    interrupt::listen(move || {
+        let told = format!(
+            "note: stopping when the surfaces under way are made; {}",
+            interrupt::AGAIN
+        );
+        if !quiet {
+            shown.suspend(|| eprintln!("{told}"));
+        }
+    });
     let made = Mutex::new(Made::default());
     let done = recorded.frames.par_iter().try_for_each(|(frame, file)| {
         if interrupt::asked() {
@@ -104,9 +118,10 @@ pub fn make_surfaces(recorded: &Sequence, out: &Path, settings: &SurfaceSettings
     made.empty.sort_unstable();
     done?;
     if interrupt::asked() {
-        return Err(Error::Interrupted {
-            frames_done: made.meshes,
-        });
+        return Err(Error::interrupted(format!(
+            "{} finished surfaces are on disk",
+            made.meshes
+        )));
     }
     Ok(made)
 }

@@ -19,6 +19,7 @@ fn settings(format: usize, normals: bool) -> SurfaceSettings {
         normals,
         format: &MESH_FORMATS[format],
         force: false,
+        quiet: true,
     }
 }
 

@@ -25,6 +25,7 @@ const DEFAULT_RATE: f64 = 30.0;
 
 /// Takes pictures in order.
 trait Encoder: Send {
+    /// `index` counts the pictures from 0.
     fn picture(&mut self, index: u32, picture: &RgbaImage) -> Result<()>;
 
     /// Ends the file. Not called after a failure.
@@ -193,6 +194,8 @@ pub struct Video {
     overlay: Arc<Overlay>,
     rate: f64,
     frames: u32,
+    /// Pictures that were taken so far.
+    taken: u32,
     /// Where frames are beside the video, so that the run may go on without it.
     pictures: Option<PathBuf>,
     /// One thread, so that pictures stay in order.
@@ -217,6 +220,7 @@ impl Video {
             overlay: Arc::new(Overlay::new(scene, scene.render.view)?),
             rate: rate(scene.time.fps),
             frames: scene.time.frames,
+            taken: 0,
             pictures: pictures.map(Path::to_owned),
             workers: Workers::new(1),
             encoder: Arc::default(),
@@ -266,7 +270,8 @@ impl Sink for Video {
         }
         let (frame, overlay, encoder) = (frame.clone(), self.overlay.clone(), self.encoder.clone());
         let (start, path) = (self.output.kind.start, self.partial());
-        let (rate, frames) = (self.rate, self.frames);
+        let (rate, frames, index) = (self.rate, self.frames, self.taken);
+        self.taken += 1;
         let queued = self.workers.submit(move || {
             let Some(picture) = compose(&frame, &overlay)? else {
                 return Ok(());
@@ -282,7 +287,7 @@ impl Sink for Video {
             }
             encoder
                 .as_mut()
-                .map_or(Ok(()), |encoder| encoder.picture(frame.index, &picture))
+                .map_or(Ok(()), |encoder| encoder.picture(index, &picture))
         });
         queued.or_else(|error| self.fail(error))
     }

@@ -19,52 +19,70 @@ pub mod work_precision;
 
 use std::path::PathBuf;
 
-use super::Settings;
-use super::bench::{Bench, progress};
+use super::bench::Bench;
 use super::page::Page;
+use super::{Settings, parts};
 use crate::error::{Error, Result};
-
-/// Which cases run, and how fine.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Choice {
-    /// Names; all cases where there is none.
-    pub cases: Vec<String>,
-    /// As each case counts it; the case's own where there is none.
-    pub resolutions: Vec<u32>,
-}
+use crate::output::interrupt;
+use cases::Case;
+use record::Record;
 
 /// Runs cases and writes the page.
-pub fn accuracy(settings: &Settings, choice: &Choice) -> Result<PathBuf> {
-    let cases = cases::named(&choice.cases)?;
-    if choice.resolutions.contains(&0) {
+pub fn accuracy(settings: &Settings) -> Result<PathBuf> {
+    let cases = cases::named(&settings.cases)?;
+    if settings.resolutions.contains(&0) {
         return Err(Error::usage(
             "a resolution of 0",
             "give 1 or more with --resolution",
         ));
     }
-    let page = Page::create(
+    let mut page = Page::create(
         &settings.folder,
         "accuracy",
         "Accuracy: Sliceflow against theory and experiment",
         settings.force,
     )?;
-    let bench = Bench::open(&settings.adapter)?;
+    let bench = Bench::open(settings)?;
+    let begin = page.mark();
     let mut records = Vec::new();
-    for case in &cases {
-        let own = (case.resolutions)(settings.size);
-        let resolutions = if choice.resolutions.is_empty() {
-            own
-        } else {
-            &choice.resolutions
-        };
-        for &resolution in resolutions {
-            for record in (case.run)(&bench, settings.size, resolution)? {
-                for figure in record.figures.iter().filter(|figure| figure.name == case.figure) {
-                    progress(&page::line(case, &record, figure));
-                }
-                records.push(record);
+    let mut path = PathBuf::new();
+    for (number, case) in cases.iter().enumerate() {
+        let ran = run_case(&bench, settings, case, &mut records);
+        page.back_to(begin);
+        // A case that was interrupted is shown as far as it came.
+        let shown = number + usize::from(records.iter().any(|record| record.case == case.name));
+        if shown > 0 {
+            page::write(&mut page, &cases[..shown], &records)?;
+        }
+        let finished = number + usize::from(ran.is_ok());
+        let is_last = number + 1 == cases.len();
+        match ran {
+            Ok(()) if is_last || !interrupt::asked() => path = page.save()?,
+            stopped => {
+                let error = stopped.err().unwrap_or(Error::interrupted(""));
+                let names: Vec<_> = cases.iter().map(|case| case.name).collect();
+                // Finished resolutions of the first case are worth a page too.
+                let done = &names[..finished.max(shown)];
+                return Err(parts::keep(page, done, &names[finished..], error, |_| {}));
             }
         }
     }
-    page::write(page, &cases, &records)
+    Ok(path)
+}
+
+/// Runs a case at all of its resolutions; those that were finished are among the records when it fails.
+fn run_case(bench: &Bench, settings: &Settings, case: &Case, records: &mut Vec<Record>) -> Result<()> {
+    let resolutions = match &settings.resolutions[..] {
+        [] => (case.resolutions)(settings.size),
+        given => given,
+    };
+    for &resolution in resolutions {
+        for record in (case.run)(bench, settings.size, resolution)? {
+            for figure in record.figures.iter().filter(|figure| figure.name == case.figure) {
+                bench.tell(&page::line(case, &record, figure));
+            }
+            records.push(record);
+        }
+    }
+    Ok(())
 }

@@ -1,6 +1,6 @@
 //! The page of an accuracy study: tables beside what others reach, diagrams, and all records as JSON.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::cases::Case;
 use super::norms;
@@ -16,8 +16,8 @@ const DIAGRAMS: [(Against, &str, &str); 3] = [
     (Against::Resolution, "resolution", "error against resolution"),
 ];
 
-/// Writes `accuracy.md`, `accuracy.json` and for every case three diagrams, each as PNG and SVG.
-pub fn write(mut page: Page, cases: &[&Case], records: &[Record]) -> Result<PathBuf> {
+/// Fills the page, and writes three diagrams for every case, each as PNG and SVG.
+pub fn write(page: &mut Page, cases: &[&Case], records: &[Record]) -> Result<()> {
     if let Some(record) = records.first() {
         page.paragraph(format!(
             "Measured on {}, Sliceflow {}. Wall times leave out what compiled the shaders.",
@@ -39,7 +39,7 @@ pub fn write(mut page: Page, cases: &[&Case], records: &[Record]) -> Result<Path
         let all = figures(&[case], &of_case, |_| true);
         page.table(&format!("{}_figures", case.name), &all);
         page.table(&format!("{}_order", case.name), &orders(case, &of_case));
-        diagrams(&mut page, case, &of_case)?;
+        diagrams(page, case, &of_case)?;
         for published in case.published {
             page.paragraph(format!("{}: {}.", published.method, published.source));
         }
@@ -48,7 +48,7 @@ pub fn write(mut page: Page, cases: &[&Case], records: &[Record]) -> Result<Path
         "records",
         serde_json::to_value(records).expect("records are numbers and text"),
     );
-    page.finish()
+    Ok(())
 }
 
 fn diagrams(page: &mut Page, case: &Case, records: &[Record]) -> Result<()> {
@@ -233,8 +233,9 @@ mod tests {
             diverged: Some("a particle left the domain".into()),
             ..record("sph", 100, 1.0)
         });
-        let page = Page::create(folder.path(), "accuracy", "Accuracy", false).unwrap();
-        let path = write(page, &[&vortices()], &records).unwrap();
+        let mut page = Page::create(folder.path(), "accuracy", "Accuracy", false).unwrap();
+        write(&mut page, &[&vortices()], &records).unwrap();
+        let path = page.save().unwrap();
         let text = std::fs::read_to_string(path).unwrap();
         for words in [
             "| vortices | edac, wendland_c2, velocity_verlet | 100² | L1 of speed, % | 0.700 | 1.38 | PySPH, EDAC, 100² | ≤ 1 | met |",

@@ -1,5 +1,6 @@
 //! Figure 5: construction on the device against construction by the processor's threads.
 
+use std::rc::Rc;
 use std::time::Instant;
 
 use super::Scale;
@@ -8,7 +9,7 @@ use super::times::AllTimes;
 use crate::error::Result;
 use crate::gpu::timing::median;
 use crate::output::plot::Plot;
-use crate::study::bench::progress;
+use crate::study::bench::Bench;
 use crate::study::cpu_grid::{Addressing, CpuGrid, Storage};
 use crate::study::page::{Cell, Page, Table};
 
@@ -19,7 +20,13 @@ const GRIDS: [(&str, Addressing, Storage); 4] = [
     ("sliced-counting", Addressing::Sliced, Storage::Counting),
 ];
 
-pub fn figure_5(page: &mut Page, scale: &Scale, drops: &[Drop], times: &AllTimes) -> Result<()> {
+pub fn figure_5(
+    page: &mut Page,
+    bench: &Bench,
+    scale: &Scale,
+    drops: &[Rc<Drop>],
+    times: &AllTimes,
+) -> Result<()> {
     page.heading("Figure 5: construction on the device and on the processor");
     page.paragraph(format!(
         "The same states as in Table 2. The processor builds the same grids with all of its {} threads (rayon: \
@@ -28,7 +35,7 @@ pub fn figure_5(page: &mut Page, scale: &Scale, drops: &[Drop], times: &AllTimes
         rayon::current_num_threads(),
         scale.cpu_rounds
     ));
-    progress("harada: construction on the processor");
+    bench.tell("harada: construction on the processor");
     let mut table = Table::new([
         "grid",
         "grains",

@@ -1,5 +1,7 @@
 //! The drops of Table 1, and Figure 6: voxels over time.
 
+use std::rc::Rc;
+
 use super::memory::Memory;
 use super::{PAPER, Paper, Scale};
 use crate::error::Result;
@@ -8,7 +10,7 @@ use crate::output::plot::Plot;
 use crate::output::text::count;
 use crate::scene::model::Addressing;
 use crate::scene::{Particles, Scene};
-use crate::study::bench::{Bench, grid_names, progress};
+use crate::study::bench::{Bench, grid_names};
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
 
@@ -66,18 +68,11 @@ fn sliced() -> usize {
     found.expect("the sliced grid has a row")
 }
 
-pub fn run(bench: &Bench, scale: &Scale) -> Result<Vec<Drop>> {
-    PAPER
-        .iter()
-        .enumerate()
-        .map(|(k, paper)| drop_block(bench, scale, paper, k))
-        .collect()
-}
-
-fn drop_block(bench: &Bench, scale: &Scale, paper: &'static Paper, k: usize) -> Result<Drop> {
-    let (columns, seconds) = (scale.columns[k], scale.seconds[k]);
+/// The drop of one row of Table 1.
+pub fn run(bench: &Bench, scale: &Scale, row: usize) -> Result<Drop> {
+    let (columns, seconds) = (scale.columns[row], scale.seconds[row]);
     let scene = scenes::dropped_block(scale.cells, columns, scale.cells / 2, seconds, scale.fps)?;
-    progress(&format!(
+    bench.tell(&format!(
         "harada: a block of {} grains drops",
         count(scene.capacity.into())
     ));
@@ -109,7 +104,7 @@ fn drop_block(bench: &Bench, scale: &Scale, paper: &'static Paper, k: usize) -> 
     })?;
     Ok(Drop {
         scene,
-        paper,
+        paper: &PAPER[row],
         domain_voxels,
         moments,
         first,
@@ -118,7 +113,7 @@ fn drop_block(bench: &Bench, scale: &Scale, paper: &'static Paper, k: usize) -> 
     })
 }
 
-pub fn table_1(page: &mut Page, drops: &[Drop]) {
+pub fn table_1(page: &mut Page, drops: &[Rc<Drop>]) {
     page.heading("Table 1: how many voxels the sliced grid needs");
     page.paragraph(
         "The largest number of voxels during a drop as a share of all voxels of the cube. `sliced` is the paper's \

@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::neighbors::ADDRESSINGS;
 use crate::output::text::count;
 use crate::scene::Scene;
-use crate::study::bench::{Bench, LISTED, progress};
+use crate::study::bench::{Bench, LISTED};
 use crate::study::measure::with_steps_per_frame;
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
@@ -94,7 +94,7 @@ pub fn table_3(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
         let part = |n: u32| n * scale.tank / PAPER_TANK;
         let scene = dam(scale.tank, part(columns), part(LAYERS), scale.tank_steps)?;
         let grains = u64::from(scene.capacity);
-        progress(&format!("harada: a dam of {} particles", count(grains)));
+        bench.tell(&format!("harada: a dam of {} particles", count(grains)));
         let names = [FIXED, SLICED, LISTED[0]].map(str::to_owned).to_vec();
         let outcomes = of_grids(bench, scale, &fallen(bench, &scene)?, names);
         let step = |name: &str| {

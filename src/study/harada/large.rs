@@ -9,7 +9,7 @@ use crate::neighbors::ADDRESSINGS;
 use crate::output::text::count;
 use crate::plan::{Plan, Wanted};
 use crate::scene::Scene;
-use crate::study::bench::{Bench, first_line, main_names, progress, rounds};
+use crate::study::bench::{Bench, first_line, main_names, rounds};
 use crate::study::measure::{Effort, Entry};
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
@@ -38,7 +38,7 @@ fn landscape(divisor: u32) -> Result<Scene> {
 
 pub fn figure_8(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
     page.heading("Figure 8: a large area");
-    progress("harada: a large area");
+    bench.tell("harada: a large area");
     let counted = landscape(scale.area_divisor)?;
     memory(page, &counted);
     let mut table = Table::new(["grid", "grains", "construction, ms", "step, ms", "remark"]);
@@ -47,7 +47,7 @@ pub fn figure_8(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
     run(&mut table, bench, &runs, effort);
     if scale.large_divisor > 1 {
         page.paragraph(format!(
-            "On the device the same hills were stepped 1/{} as large along each side; `--size full` steps them at full \
+            "On the device the same hills were stepped 1/{} as large along each side; `--scale full` steps them at full \
              size.",
             scale.large_divisor
         ));

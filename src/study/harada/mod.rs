@@ -11,15 +11,19 @@ mod shapes;
 mod times;
 
 use std::path::PathBuf;
+use std::rc::Rc;
 
 use super::bench::Bench;
 use super::measure::Effort;
 use super::page::Page;
+use super::parts::{self, Part};
 use super::{Settings, Size};
 use crate::error::Result;
+use drops::Drop;
+use times::AllTimes;
 
 /// A row of Harada 2007's Tables 1 and 2, measured on a GeForce 8800 GTX.
-struct Paper {
+pub struct Paper {
     grains: u64,
     /// Largest share of the cube's voxels that the sliced grid used.
     ratio: f64,
@@ -49,7 +53,7 @@ const fn paper(grains: u64, ratio: f64, build: [f64; 2], step: [f64; 2], voxels:
 }
 
 /// How large everything is.
-struct Scale {
+pub struct Scale {
     /// Voxels along a side of the cube; the paper has 128.
     cells: u32,
     /// Grains along the sides of the blocks' floors; blocks are half as high as the cube.
@@ -120,10 +124,11 @@ fn scale(size: Size) -> Scale {
 }
 
 pub fn harada(settings: &Settings) -> Result<PathBuf> {
+    let parts = parts::chosen("harada", PARTS, &settings.cases)?;
     let title = "Harada, Koshizuka and Kawaguchi 2007, *Sliced Data Structure for Particle-Based Simulations on GPUs*, \
                  beside Sliceflow";
     let mut page = Page::create(&settings.folder, "harada", title, settings.force)?;
-    let bench = Bench::open(&settings.adapter)?;
+    let bench = Bench::open(settings)?;
     let scale = scale(settings.size);
     page.paragraph(format!(
         "The paper's scene: a block of s × {0} × s grains is dropped in a cube of {1}³ voxels, each as wide as a \
@@ -134,21 +139,113 @@ pub fn harada(settings: &Settings) -> Result<PathBuf> {
         match settings.size {
             Size::Full => "",
             Size::Small | Size::Tiny =>
-                "; the paper's cube has 128³ voxels, and `--size full` has them too. Here blocks and cube are smaller \
+                "; the paper's cube has 128³ voxels, and `--scale full` has them too. Here blocks and cube are smaller \
                  by the same factor along each side",
         },
     ));
     bench.describe(&mut page, scale.effort);
-    let drops = drops::run(&bench, &scale)?;
-    drops::table_1(&mut page, &drops);
-    let times = times::table_2(&mut page, &bench, &scale, &drops)?;
-    fluids::table_3(&mut page, &bench, &scale)?;
-    construction::figure_5(&mut page, &scale, &drops, &times)?;
-    drops::figure_6(&mut page, &drops[1])?;
-    pictures::figure_2(&mut page, &bench, &drops[1])?;
-    pictures::figure_7(&mut page, &bench, &drops)?;
-    large::figure_8(&mut page, &bench, &scale)?;
-    shapes::shapes(&mut page, &bench, &scale, &drops[1])?;
-    resize::resizing(&mut page, &bench, &drops[1], scale.resizing_steps)?;
-    page.finish()
+    let mut shared = Shared {
+        scale,
+        drops: Default::default(),
+        times: None,
+    };
+    parts::run(page, &bench, &mut shared, &parts, |_, _| {})
 }
+
+/// What parts share, made when the first of them asks.
+pub struct Shared {
+    scale: Scale,
+    /// The drops of Table 1.
+    drops: [Option<Rc<Drop>>; 4],
+    /// Of every grid, for each drop.
+    times: Option<Rc<AllTimes>>,
+}
+
+impl Shared {
+    fn drop(&mut self, bench: &Bench, number: usize) -> Result<Rc<Drop>> {
+        if let Some(drop) = &self.drops[number] {
+            return Ok(drop.clone());
+        }
+        let drop = Rc::new(drops::run(bench, &self.scale, number)?);
+        self.drops[number] = Some(drop.clone());
+        Ok(drop)
+    }
+
+    fn all_drops(&mut self, bench: &Bench) -> Result<Vec<Rc<Drop>>> {
+        (0..self.drops.len())
+            .map(|number| self.drop(bench, number))
+            .collect()
+    }
+
+    fn times(&mut self, bench: &Bench) -> Result<Rc<AllTimes>> {
+        if let Some(times) = &self.times {
+            return Ok(times.clone());
+        }
+        let drops = self.all_drops(bench)?;
+        let times = Rc::new(times::of_drops(bench, &self.scale, &drops));
+        bench.check()?;
+        self.times = Some(times.clone());
+        Ok(times)
+    }
+}
+
+/// The second drop, which the paper's figures show.
+const SECOND: usize = 1;
+
+pub const PARTS: &[Part<Shared>] = &[
+    Part {
+        name: "table_1",
+        run: |page, bench, shared| {
+            drops::table_1(page, &shared.all_drops(bench)?);
+            Ok(())
+        },
+    },
+    Part {
+        name: "table_2",
+        run: |page, bench, shared| {
+            let drops = shared.all_drops(bench)?;
+            times::table_2(page, &drops, &*shared.times(bench)?)
+        },
+    },
+    Part {
+        name: "table_3",
+        run: |page, bench, shared| fluids::table_3(page, bench, &shared.scale),
+    },
+    Part {
+        name: "figure_5",
+        run: |page, bench, shared| {
+            let (drops, times) = (shared.all_drops(bench)?, shared.times(bench)?);
+            construction::figure_5(page, bench, &shared.scale, &drops, &times)
+        },
+    },
+    Part {
+        name: "figure_6",
+        run: |page, bench, shared| drops::figure_6(page, &*shared.drop(bench, SECOND)?),
+    },
+    Part {
+        name: "figure_2",
+        run: |page, bench, shared| pictures::figure_2(page, bench, &*shared.drop(bench, SECOND)?),
+    },
+    Part {
+        name: "figure_7",
+        run: |page, bench, shared| pictures::figure_7(page, bench, &shared.all_drops(bench)?),
+    },
+    Part {
+        name: "figure_8",
+        run: |page, bench, shared| large::figure_8(page, bench, &shared.scale),
+    },
+    Part {
+        name: "shapes",
+        run: |page, bench, shared| {
+            let drop = shared.drop(bench, SECOND)?;
+            shapes::shapes(page, bench, &shared.scale, &drop)
+        },
+    },
+    Part {
+        name: "resizing",
+        run: |page, bench, shared| {
+            let drop = shared.drop(bench, SECOND)?;
+            resize::resizing(page, bench, &drop, shared.scale.resizing_steps)
+        },
+    },
+];

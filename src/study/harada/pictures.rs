@@ -1,12 +1,14 @@
 //! Figures 2 and 7: what the grid gives memory to, and the memory itself.
 
+use std::rc::Rc;
+
 use super::drops::{Drop, State};
 use crate::error::Result;
 use crate::output::text::count;
 use crate::output::{encode_png, write_file};
 use crate::scene::Scene;
 use crate::scene::model::View;
-use crate::study::bench::{Bench, progress};
+use crate::study::bench::Bench;
 use crate::study::page::Page;
 use crate::study::scenes;
 
@@ -38,7 +40,7 @@ pub fn figure_2(page: &mut Page, bench: &Bench, drop: &Drop) -> Result<()> {
         "A uniform grid has memory for all within the red lines, the sliced grid for the green boxes. Seen along z; grains \
          by speed.",
     );
-    progress("harada: pictures");
+    bench.tell("harada: pictures");
     for (k, state) in [&drop.first, &drop.widest, &drop.last].into_iter().enumerate() {
         let caption = format!(
             "{} grains at {:.3} s.",
@@ -51,7 +53,7 @@ pub fn figure_2(page: &mut Page, bench: &Bench, drop: &Drop) -> Result<()> {
     Ok(())
 }
 
-pub fn figure_7(page: &mut Page, bench: &Bench, drops: &[Drop]) -> Result<()> {
+pub fn figure_7(page: &mut Page, bench: &Bench, drops: &[Rc<Drop>]) -> Result<()> {
     page.heading("Figure 7: the index pool");
     page.paragraph(
         "Two scenes, each beside its pool, one texel a voxel in the order of memory. Black voxels are empty; red, yellow \

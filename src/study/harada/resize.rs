@@ -3,7 +3,7 @@
 use super::drops::Drop;
 use crate::error::Result;
 use crate::output::text::count;
-use crate::study::bench::{Bench, progress};
+use crate::study::bench::Bench;
 use crate::study::measure::{Policy, Sized};
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
@@ -21,7 +21,7 @@ pub fn resizing(page: &mut Page, bench: &Bench, drop: &Drop, steps: u32) -> Resu
         count(drop.scene.capacity.into()),
         count(steps.into()),
     ));
-    progress("harada: resizing the pool");
+    bench.tell("harada: resizing the pool");
     let scene = scenes::with_grid(&drop.at(&drop.first), "sliced-pool")?;
     let policy = |name: &'static str, margin: f64, exactly: bool| {
         let mut scene = scene.clone();

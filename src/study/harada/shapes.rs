@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::output::plot::Bars;
 use crate::output::text::count;
 use crate::scene::{Particles, Scene};
-use crate::study::bench::{Bench, LISTED, main_names, progress};
+use crate::study::bench::{Bench, LISTED, main_names};
 use crate::study::measure::Times;
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
@@ -68,7 +68,7 @@ pub fn shapes(page: &mut Page, bench: &Bench, scale: &Scale, splash: &Drop) -> R
     let mut ranks = Vec::new();
     let mut shares: Vec<(String, Vec<f64>)> = Vec::new();
     for (name, scene) in &scenes {
-        progress(&format!(
+        bench.tell(&format!(
             "harada: {name}, {} grains",
             count(scene.capacity.into())
         ));

@@ -1,11 +1,13 @@
 //! Table 2: construction and whole steps, fixed grid against sliced grid and all others.
 
+use std::rc::Rc;
+
 use super::drops::Drop;
 use super::{PAPER, Scale};
 use crate::error::{Error, Result};
 use crate::output::plot::Bars;
 use crate::output::text::count;
-use crate::study::bench::{Bench, LISTED, first_line, progress, timed_names};
+use crate::study::bench::{Bench, LISTED, first_line, timed_names};
 use crate::study::measure::{Entry, Outcome};
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
@@ -49,23 +51,22 @@ fn refusal(error: &Error) -> String {
     }
 }
 
-pub fn table_2(page: &mut Page, bench: &Bench, scale: &Scale, drops: &[Drop]) -> Result<AllTimes> {
+/// Times of all grids for each drop when its sliced grid is widest.
+pub fn of_drops(bench: &Bench, scale: &Scale, drops: &[Rc<Drop>]) -> AllTimes {
+    let of_drop = |drop: &Rc<Drop>| {
+        let grains = count(drop.scene.capacity.into());
+        bench.tell(&format!("harada: times of all grids, {grains} grains"));
+        of_grids(bench, scale, &drop.at(&drop.widest), timed_names())
+    };
+    drops.iter().map(of_drop).collect()
+}
+
+pub fn table_2(page: &mut Page, drops: &[Rc<Drop>], times: &AllTimes) -> Result<()> {
     page.heading("Table 2: construction and whole steps of grains");
     page.paragraph(
         "Each drop's state when its sliced grid is widest, stepped on with every grid. In the paper both grids are \
          pools of four indices a voxel: our `uniform-pool` and `sliced-pool`.",
     );
-    let times: AllTimes = drops
-        .iter()
-        .map(|drop| {
-            progress(&format!(
-                "harada: times of all grids, {} grains",
-                drop.scene.capacity
-            ));
-            of_grids(bench, scale, &drop.at(&drop.widest), timed_names())
-        })
-        .collect();
-
     let mut table = Table::new([
         "grains, paper",
         "construction ratio, paper",
@@ -78,7 +79,7 @@ pub fn table_2(page: &mut Page, bench: &Bench, scale: &Scale, drops: &[Drop]) ->
         "step, sliced, ms",
         "step ratio",
     ]);
-    for ((drop, paper), times) in drops.iter().zip(&PAPER).zip(&times) {
+    for ((drop, paper), times) in drops.iter().zip(&PAPER).zip(times) {
         let find = |name: &str| {
             times
                 .iter()
@@ -102,14 +103,14 @@ pub fn table_2(page: &mut Page, bench: &Bench, scale: &Scale, drops: &[Drop]) ->
     }
     page.table("table_2", &table);
     page.paragraph("Every grid, milliseconds of construction / of a whole step:");
-    page.table("table_2_all", &every_grid(drops, &times));
+    page.table("table_2_all", &every_grid(drops, times));
     page.paragraph(format!(
         "Which grid is the fastest: the geometric mean over the four drops of a step's time as a multiple of \
          `{}`'s, which scenes get that do not choose; and the share of a step's passes that construction takes, on \
          average.",
         LISTED[0]
     ));
-    page.table("winner", &winner(&times));
+    page.table("winner", &winner(times));
 
     let there = |name: &str| {
         times
@@ -124,7 +125,7 @@ pub fn table_2(page: &mut Page, bench: &Bench, scale: &Scale, drops: &[Drop]) ->
     )
     .size(1400, 600)
     .log_y();
-    for (drop, times) in drops.iter().zip(&times) {
+    for (drop, times) in drops.iter().zip(times) {
         let value = |name: &String| {
             let found = times.iter().find(|(n, _)| n == name);
             found
@@ -138,8 +139,7 @@ pub fn table_2(page: &mut Page, bench: &Bench, scale: &Scale, drops: &[Drop]) ->
     }
     page.picture("harada_table_2.png", "Whole steps with every grid.", |path| {
         chart.save(path)
-    })?;
-    Ok(times)
+    })
 }
 
 /// Grids by the time of their steps, the fastest first.
@@ -177,7 +177,7 @@ fn winner(times: &AllTimes) -> Table {
     table
 }
 
-fn every_grid(drops: &[Drop], times: &AllTimes) -> Table {
+fn every_grid(drops: &[Rc<Drop>], times: &AllTimes) -> Table {
     let mut heads = vec!["grid".to_owned()];
     for drop in drops {
         let grains = count(drop.scene.capacity.into());

@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::output::plot::Plot;
 use crate::output::text::count;
 use crate::scene::Scene;
-use crate::study::bench::{Bench, progress};
+use crate::study::bench::Bench;
 use crate::study::page::{Cell, Page, Table, shown};
 
 /// Intervals of a run; what happens in the first two of them is settling.
@@ -48,7 +48,7 @@ pub fn rests(page: &mut Page, bench: &Bench, scale: &Scale, failures: &mut Failu
     ]);
     let mut chart = Plot::new("Kinetic energy at rest", "time, s", "kinetic energy, J").log_y();
     for method in FLUIDS.into_iter().chain(GRAINS) {
-        progress(&format!(
+        bench.tell(&format!(
             "stability: {} rests for {} steps",
             method.name(),
             count(scale.long.into())

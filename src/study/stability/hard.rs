@@ -8,7 +8,7 @@ use super::{Failures, Scale};
 use crate::error::Result;
 use crate::scene::Scene;
 use crate::scene::model::Integrator;
-use crate::study::bench::{Bench, progress};
+use crate::study::bench::Bench;
 use crate::study::page::Cell;
 use crate::study::page::{Page, Table, shown};
 
@@ -56,7 +56,7 @@ pub fn cases(page: &mut Page, bench: &Bench, scale: &Scale, failures: &mut Failu
     ));
     let mut table = Table::new(["solver", "case", "fixed steps", "adaptive steps"]);
     for method in FLUIDS.into_iter().chain(GRAINS) {
-        progress(&format!("stability: hard cases of {}", method.name()));
+        bench.tell(&format!("stability: hard cases of {}", method.name()));
         for (name, case) in CASES {
             let mut row = vec![Cell::text(method.name()), Cell::text(name)];
             for (adaptive, steps) in [(false, "fixed steps"), (true, "adaptive steps")] {

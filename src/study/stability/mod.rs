@@ -11,10 +11,11 @@ use std::path::PathBuf;
 
 use super::bench::Bench;
 use super::page::{Cell, Page};
+use super::parts::{self, Part};
 use super::{Settings, Size};
 use crate::error::Result;
 
-struct Scale {
+pub struct Scale {
     /// Halvings of the interval in which the longest stable step lies.
     halvings: u32,
     /// Simulated seconds of a dam that must not gain energy.
@@ -41,7 +42,7 @@ fn scale(size: Size) -> Scale {
 
 /// What did not meet its bound, in the order in which it was found.
 #[derive(Default)]
-struct Failures(Vec<String>);
+pub struct Failures(Vec<String>);
 
 impl Failures {
     /// A cell that says how it went; what failed is kept.
@@ -56,29 +57,68 @@ impl Failures {
     }
 }
 
+/// What parts share.
+pub struct Shared {
+    scale: Scale,
+    /// Of the parts that were finished.
+    failures: Failures,
+}
+
+impl Shared {
+    /// Runs a part that judges; what it found counts when it was finished.
+    fn judge(
+        &mut self,
+        page: &mut Page,
+        bench: &Bench,
+        part: fn(&mut Page, &Bench, &Scale, &mut Failures) -> Result<()>,
+    ) -> Result<()> {
+        let mut own = Failures::default();
+        part(page, bench, &self.scale, &mut own)?;
+        bench.check()?;
+        self.failures.0.extend(own.0);
+        Ok(())
+    }
+}
+
+pub const PARTS: &[Part<Shared>] = &[
+    Part {
+        name: "steps",
+        run: |page, bench, shared| steps::longest(page, bench, &shared.scale),
+    },
+    Part {
+        name: "rests",
+        run: |page, bench, shared| shared.judge(page, bench, endurance::rests),
+    },
+    Part {
+        name: "hard_cases",
+        run: |page, bench, shared| shared.judge(page, bench, hard::cases),
+    },
+];
+
 pub fn stability(settings: &Settings) -> Result<PathBuf> {
+    let parts = parts::chosen("stability", PARTS, &settings.cases)?;
     let title = "What each solver endures";
     let mut page = Page::create(&settings.folder, "stability", title, settings.force)?;
-    let bench = Bench::open(&settings.adapter)?;
-    let scale = scale(settings.size);
+    let bench = Bench::open(settings)?;
     page.paragraph(
         "Small 2D scenes: the longest stable time step beside theory, long rests, and hard cases. Everything that does \
          not hold its bound is listed at the end.",
     );
     bench.environment(&mut page);
-    let mut failures = Failures::default();
-    steps::longest(&mut page, &bench, &scale)?;
-    endurance::rests(&mut page, &bench, &scale, &mut failures)?;
-    hard::cases(&mut page, &bench, &scale, &mut failures)?;
-    page.heading("What fails");
-    match &failures.0[..] {
-        [] => page.paragraph("Nothing that was tried here."),
-        failed => {
-            for one in failed {
-                page.paragraph(format!("- {one}"));
+    let mut shared = Shared {
+        scale: scale(settings.size),
+        failures: Failures::default(),
+    };
+    parts::run(page, &bench, &mut shared, &parts, |page, shared| {
+        page.heading("What fails");
+        match &shared.failures.0[..] {
+            [] => page.paragraph("Nothing that was tried here."),
+            failed => {
+                for one in failed {
+                    page.paragraph(format!("- {one}"));
+                }
             }
         }
-    }
-    page.value("failing", failures.0);
-    page.finish()
+        page.value("failing", shared.failures.0.clone());
+    })
 }

@@ -7,7 +7,7 @@ use super::trial::{Trial, lost, run};
 use crate::error::Result;
 use crate::output::plot::Bars;
 use crate::scene::Scene;
-use crate::study::bench::{Bench, progress};
+use crate::study::bench::Bench;
 use crate::study::page::{Cell, Page, Table};
 
 /// Steps of a lattice, in which a mode that grows by a fifth a step grows a thousandfold.
@@ -74,7 +74,7 @@ pub fn longest(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
     let mut expected = Vec::new();
     let mut usual = Vec::new();
     for case in cases(scale)? {
-        progress(&format!(
+        bench.tell(&format!(
             "stability: steps of {}, {}",
             case.method, case.scene_name
         ));

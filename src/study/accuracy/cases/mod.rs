@@ -17,9 +17,9 @@ mod taylor_green_3d;
 
 use super::published::Published;
 use super::record::Record;
-use crate::error::{Error, Result};
-use crate::study::Size;
+use crate::error::Result;
 use crate::study::bench::Bench;
+use crate::study::{Size, parts};
 
 /// One case, which runs at several resolutions.
 #[derive(Clone, Copy)]
@@ -62,13 +62,10 @@ pub fn named(names: &[String]) -> Result<Vec<&'static Case>> {
     if names.is_empty() {
         return Ok(CASES.iter().collect());
     }
-    let known: Vec<_> = CASES.iter().map(|case| case.name).collect();
     let find = |name: &String| {
         CASES.iter().find(|case| case.name == name).ok_or_else(|| {
-            Error::usage(
-                format!("there is no case `{name}`"),
-                format!("name one of {}", known.join(", ")),
-            )
+            let known: Vec<_> = CASES.iter().map(|case| case.name).collect();
+            parts::unknown("accuracy", name, &known)
         })
     };
     names.iter().map(find).collect()
