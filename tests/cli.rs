@@ -7,6 +7,7 @@ use std::path::Path;
 
 use assert_cmd::{Command, cargo_bin_cmd};
 use serde_json::Value;
+use sliceflow::scene::npy::Array;
 
 fn sliceflow(args: &[&str]) -> Command {
     let mut command = cargo_bin_cmd!("sliceflow");
@@ -252,12 +253,7 @@ fn a_run_writes_frames_statistics_particles_and_a_manifest() {
         let picture = image::open(out.join(format!("frame_{frame:06}.png"))).unwrap();
         assert_eq!((picture.width(), picture.height()), (160, 120));
         let arrays = out.join(format!("particles_{frame:06}"));
-        let shape = |name: &str| {
-            npyz::NpyFile::new(&fs::read(arrays.join(name)).unwrap()[..])
-                .unwrap()
-                .shape()
-                .to_vec()
-        };
+        let shape = |name: &str| Array::parse(&fs::read(arrays.join(name)).unwrap()).unwrap().shape;
         assert_eq!(shape("position.npy")[0], 2000);
         assert_eq!(shape("id.npy"), [2000]);
     }

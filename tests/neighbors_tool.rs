@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 
 use assert_cmd::{Command, cargo_bin_cmd};
 use glam::DVec3;
-use npyz::WriterBuilder;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
@@ -19,6 +18,7 @@ use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
 use sliceflow::output::npy;
 use sliceflow::plan::{Plan, Wanted};
 use sliceflow::scene::model::Addressing;
+use sliceflow::scene::npy::Array;
 use sliceflow::scene::{Dimensions, Neighbors, Scene};
 use sliceflow::simulation::Simulation;
 
@@ -135,9 +135,17 @@ fn failure(args: &[&str]) -> String {
     String::from_utf8(assert.get_output().stderr.clone()).unwrap()
 }
 
-fn array<T: npyz::Deserialize>(path: &Path) -> Vec<T> {
+/// Numbers of a file, whose type is `kind`.
+fn array(path: &Path, kind: &str) -> Vec<u64> {
     let bytes = fs::read(path).unwrap();
-    npyz::NpyFile::new(&bytes[..]).unwrap().into_vec().unwrap()
+    let array = Array::parse(&bytes).unwrap();
+    assert_eq!(array.kind, kind);
+    array
+        .numbers()
+        .unwrap()
+        .iter()
+        .map(|&number| number as u64)
+        .collect()
 }
 
 /// What the command finds in a file: its JSON, counts and lists.
@@ -162,9 +170,15 @@ fn found(file: &Path, radius: f64, more: &[&str]) -> (Value, Vec<u32>, Vec<Vec<u
     let args = [&args[..], more].concat();
     let assert = sliceflow(&args).assert().success();
     let report: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
-    let counts: Vec<u32> = array(&counts);
-    let offsets: Vec<u64> = array(&folder.path().join("pairs_offsets.npy"));
-    let ids: Vec<u32> = array(&folder.path().join("pairs_ids.npy"));
+    let narrow = |numbers: Vec<u64>| {
+        numbers
+            .into_iter()
+            .map(|number| number as u32)
+            .collect::<Vec<_>>()
+    };
+    let counts = narrow(array(&counts, "<u4"));
+    let offsets = array(&folder.path().join("pairs_offsets.npy"), "<u8");
+    let ids = narrow(array(&folder.path().join("pairs_ids.npy"), "<u4"));
     let lists = offsets
         .windows(2)
         .map(|pair| ids[pair[0] as usize..pair[1] as usize].to_vec())
@@ -209,17 +223,17 @@ fn write_formats(folder: &Path, points: &[DVec3], axes: usize) -> Vec<PathBuf> {
     fs::write(path("binary.ply"), binary).unwrap();
     let singles: Vec<f32> = numbers.iter().map(|&x| x as f32).collect();
     npy::write(&path("single.npy"), axes, &singles).unwrap();
-    let mut fortran = npyz::WriteOptions::new()
-        .default_dtype()
-        .shape(&[points.len() as u64, axes as u64])
-        .order(npyz::Order::Fortran)
-        .writer(fs::File::create(path("fortran.npy")).unwrap())
-        .begin_nd()
-        .unwrap();
+    let header = format!(
+        "{{'descr': '<f8', 'fortran_order': True, 'shape': ({}, {axes}), }}\n",
+        points.len()
+    );
+    let mut fortran = b"\x93NUMPY\x01\x00".to_vec();
+    fortran.extend((header.len() as u16).to_le_bytes());
+    fortran.extend(header.as_bytes());
     for axis in 0..axes {
-        fortran.extend(points.iter().map(|p| p[axis])).unwrap();
+        fortran.extend(points.iter().flat_map(|p| p[axis].to_le_bytes()));
     }
-    fortran.finish().unwrap();
+    fs::write(path("fortran.npy"), fortran).unwrap();
     [
         "named.csv",
         "bare.csv",

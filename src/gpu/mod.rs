@@ -8,6 +8,7 @@ pub mod buffers;
 pub mod compose;
 pub mod device;
 pub mod draw;
+pub mod driver;
 mod fault;
 pub mod limits;
 pub mod parts;

@@ -17,8 +17,8 @@ use super::tally::Tally;
 use super::text::{bytes, seconds, short};
 use super::{Sink, disk_bytes, interrupt};
 use crate::error::{Error, Result};
-use crate::gpu::Gpu;
 use crate::gpu::device::describe;
+use crate::gpu::{Gpu, driver};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::simulation::frame::Frame;
@@ -206,6 +206,9 @@ pub(super) fn open(settings: &Settings, progress: &Progress) -> Result<Gpu> {
             "software adapter {} computes on the processor, which is slow",
             describe(&gpu.adapter)
         ));
+    }
+    if let Some(warning) = driver::slow(&gpu.adapter) {
+        progress.warn(&warning);
     }
     if settings.timings && !gpu.has_timestamps {
         progress.warn("this adapter cannot time passes, so --timings has no effect");

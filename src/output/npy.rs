@@ -1,16 +1,16 @@
 //! NumPy's array file, one array a file.
 
 use std::fs;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write as _};
 use std::path::Path;
 
-use npyz::WriterBuilder;
+use crate::scene::npy::{Number, header};
 
 /// Writes `values` in C order: shape (N,) for one column, (N, columns) for more. Little-endian, as every machine that
 /// wgpu's native backends run on.
 ///
 /// The file appears under its name only when it is whole: it is written as `NAME.part` and renamed.
-pub fn write<T: npyz::AutoSerialize + Copy>(path: &Path, columns: usize, values: &[T]) -> io::Result<()> {
+pub fn write<T: Number>(path: &Path, columns: usize, values: &[T]) -> io::Result<()> {
     assert!(
         columns > 0 && values.len().is_multiple_of(columns),
         "{} values do not make rows of {columns}",
@@ -23,15 +23,9 @@ pub fn write<T: npyz::AutoSerialize + Copy>(path: &Path, columns: usize, values:
     let mut name = path.as_os_str().to_owned();
     name.push(".part");
     let write = || {
-        let mut file = BufWriter::new(fs::File::create(&name)?);
-        let mut array = npyz::WriteOptions::new()
-            .default_dtype()
-            .shape(shape)
-            .writer(&mut file)
-            .begin_nd()?;
-        array.extend(values.iter().copied())?;
-        array.finish()?;
-        file.flush()?;
+        let mut file = fs::File::create(&name)?;
+        file.write_all(&header::<T>(shape))?;
+        file.write_all(bytemuck::cast_slice(values))?;
         drop(file);
         fs::rename(&name, path)
     };
@@ -44,6 +38,7 @@ pub fn write<T: npyz::AutoSerialize + Copy>(path: &Path, columns: usize, values:
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::npy::Array;
 
     #[test]
     fn writes_rows_and_leaves_no_partial_file() {
@@ -54,10 +49,9 @@ mod tests {
         let bytes = fs::read(&path).unwrap();
         let header = String::from_utf8_lossy(&bytes[..80]).into_owned();
         assert!(header.contains("'<f4'"), "{header}");
-        let array = npyz::NpyFile::new(&bytes[..]).unwrap();
-        assert_eq!(array.shape(), [2, 3]);
-        assert_eq!(array.order(), npyz::Order::C);
-        assert_eq!(array.into_vec::<f32>().unwrap(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.5]);
+        let array = Array::parse(&bytes).unwrap();
+        assert_eq!((array.is_fortran, &array.shape[..]), (false, &[2, 3][..]));
+        assert_eq!(array.numbers().unwrap(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.5]);
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
@@ -68,9 +62,12 @@ mod tests {
         for values in [&[7u32, 8, 9][..], &[]] {
             write(&path, 1, values).unwrap();
             let bytes = fs::read(&path).unwrap();
-            let array = npyz::NpyFile::new(&bytes[..]).unwrap();
-            assert_eq!(array.shape(), [values.len() as u64]);
-            assert_eq!(array.into_vec::<u32>().unwrap(), values);
+            let array = Array::parse(&bytes).unwrap();
+            assert_eq!(array.shape, [values.len()]);
+            assert_eq!(
+                array.numbers().unwrap(),
+                values.iter().map(|&v| v.into()).collect::<Vec<f64>>()
+            );
         }
     }
 

@@ -1,8 +1,6 @@
 //! Particles of a run's frames, read back from its particle files or its checkpoints.
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use super::checkpoint::Checkpoint;
@@ -10,6 +8,7 @@ use super::particles::{FORMATS, found};
 use super::recipe::Recorded;
 use super::rewind::checkpoints;
 use crate::error::{Error, Result};
+use crate::scene::npy::Array;
 use crate::scene::particle_file;
 use crate::simulation::State;
 
@@ -157,21 +156,12 @@ impl Column {
     }
 
     fn from_npy(path: &Path) -> std::io::Result<Self> {
-        let array = npyz::NpyFile::new(BufReader::new(File::open(path)?))?;
-        let width = array.shape().get(1).map_or(1, |&width| width as usize);
-        let values: Vec<f64> = match array.try_data::<f64>() {
-            Ok(data) => data.collect::<std::io::Result<_>>()?,
-            Err(array) => match array.try_data::<f32>() {
-                Ok(data) => data
-                    .map(|value| value.map(f64::from))
-                    .collect::<std::io::Result<_>>()?,
-                Err(array) => array
-                    .data::<u32>()
-                    .map_err(std::io::Error::other)?
-                    .map(|value| value.map(f64::from))
-                    .collect::<std::io::Result<_>>()?,
-            },
-        };
+        let file = std::fs::read(path)?;
+        let array = Array::parse(&file)?;
+        let width = array.shape.get(1).copied().unwrap_or(1);
+        let values = array
+            .numbers()
+            .ok_or_else(|| std::io::Error::other(format!("the array holds {}, no numbers", array.kind)))?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         let (width, values) = match width {
             2 => (

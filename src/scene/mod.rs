@@ -23,6 +23,7 @@ pub mod load;
 pub mod mesh;
 pub mod model;
 mod motion;
+pub mod npy;
 mod obstacles;
 pub mod particle_file;
 mod ply;

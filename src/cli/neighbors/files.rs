@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
 use crate::output::npy;
+use crate::scene::npy::Number;
 use crate::simulation::NeighborLists;
 
 /// Where counts and lists go.
@@ -91,7 +92,7 @@ fn with(prefix: &Path, ending: &str) -> PathBuf {
     name.into()
 }
 
-fn write<T: npyz::AutoSerialize + Copy>(path: &Path, values: &[T]) -> Result<()> {
+fn write<T: Number>(path: &Path, values: &[T]) -> Result<()> {
     npy::write(path, 1, values).map_err(|reason| {
         Error::file(
             path,
