@@ -335,7 +335,7 @@ fn files_that_exist_are_kept() {
     sliceflow(&[&file, "--radius", "2", "--counts", &counts, "--force"])
         .assert()
         .success();
-    assert_eq!(array::<u32>(Path::new(&counts)), [1, 1]);
+    assert_eq!(array(Path::new(&counts), "<u4"), [1, 1]);
 }
 
 #[test]

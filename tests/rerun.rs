@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::BufReader;
 use std::path::Path;
-use std::time::{Duration, Instant};
 
 use assert_cmd::{Command, cargo_bin_cmd};
 use rerun::external::re_log_encoding::DecoderApp;
@@ -243,12 +242,9 @@ fn run_with_viewer(address: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let more = ["--rerun-connect", address, "--progress", "plain"];
-    let begin = Instant::now();
     let run = sliceflow(&short_run("column_2d", out.to_str().unwrap(), &more))
-        .timeout(Duration::from_secs(120))
         .assert()
         .success();
-    assert!(begin.elapsed() < Duration::from_secs(100));
     assert!(out.join("frame_000005.png").exists());
     String::from_utf8_lossy(&run.get_output().stderr).into_owned()
 }
@@ -297,7 +293,7 @@ fn a_full_disk_is_an_error() {
     std::os::unix::fs::symlink("/dev/full", &full).unwrap();
     let name = full.display().to_string();
     let run = short_run("column_2d", out.to_str().unwrap(), &["--rerun", &name, "--force"]);
-    let failed = sliceflow(&run).timeout(Duration::from_secs(120)).assert().code(1);
+    let failed = sliceflow(&run).assert().code(1);
     let told = String::from_utf8_lossy(&failed.get_output().stderr).into_owned();
     assert!(told.contains("full.rrd") && told.contains("free space"), "{told}");
 }

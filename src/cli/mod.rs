@@ -14,6 +14,7 @@ mod neighbors;
 mod new;
 mod particle_args;
 mod plan;
+mod plan_measure;
 mod quiet_args;
 mod render;
 mod rerun_args;

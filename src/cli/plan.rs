@@ -5,6 +5,7 @@ use std::fmt;
 use serde_json::{Value, json};
 
 use super::device_args::DeviceArgs;
+use super::plan_measure::Estimate;
 use super::run_args::RunArgs;
 use super::table::Align::{Left, Right};
 use super::table::Table;
@@ -19,7 +20,8 @@ use crate::scene::Scene;
 
 /// Says what a run would do: buffers, passes, time step, memory, disk
 ///
-/// Nothing is simulated. On a machine without an adapter, the plan is made for what WebGPU promises everywhere.
+/// Nothing is simulated, except a few seconds with --measure. On a machine without an adapter, the plan is made for what
+/// WebGPU promises everywhere.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -27,6 +29,9 @@ pub struct Args {
     run: RunArgs,
     #[command(flatten)]
     device: DeviceArgs,
+    /// Estimates the run's time from some seconds of it, without writing anything
+    #[arg(long)]
+    measure: bool,
     /// Prints JSON
     #[arg(long)]
     json: bool,
@@ -36,12 +41,17 @@ const EXAMPLES: &str = "\
 Examples:
   sliceflow plan green_cube
   sliceflow plan harada_figure_2 --grid sliced-pool --view both
+  sliceflow plan my_scene.json --measure
   sliceflow plan my_scene.json --json | jq '.plan.buffers[].name'";
 
 pub fn main(args: &Args) -> Result<()> {
     let scene = args.run.load()?;
     let adapter = args.device.adapter();
-    let report = Report::new(&scene, &args.run.outputs()?, &adapter)?;
+    let outputs = args.run.outputs()?;
+    let mut report = Report::new(&scene, &outputs, &adapter)?;
+    if args.measure {
+        report.estimate = Some(Estimate::new(&scene, &outputs, &adapter)?);
+    }
     if args.json {
         stdout::print_json(&report.json())
     } else {
@@ -60,6 +70,8 @@ pub struct Report<'a> {
     checkpoints: Checkpoints,
     /// How many stay at most, and the bytes of one.
     checkpoint_estimate: (u32, u64),
+    /// Of the run's time, where it is asked for.
+    estimate: Option<Estimate>,
 }
 
 impl<'a> Report<'a> {
@@ -78,6 +90,7 @@ impl<'a> Report<'a> {
             disk_bytes: disk_bytes(scene, outputs),
             checkpoints: outputs.checkpoints,
             checkpoint_estimate: checkpoint_estimate(scene, outputs),
+            estimate: None,
         })
     }
 
@@ -119,6 +132,7 @@ impl<'a> Report<'a> {
             "disk_bytes_estimate": self.disk_bytes,
             "checkpoint_bytes": self.checkpoint_estimate.1,
             "checkpoints_kept": self.checkpoint_estimate.0,
+            "measured": self.estimate.as_ref().map(|estimate| &estimate.measured),
             "notes": scene.notes,
             "plan": self.plan,
         })
@@ -195,6 +209,9 @@ impl fmt::Display for Report<'_> {
             )?;
         }
         writeln!(f)?;
+        if let Some(estimate) = &self.estimate {
+            write!(f, "{estimate}")?;
+        }
 
         let mut buffers = Table::new([("buffer", Left), ("size", Right), ("why", Left)]);
         for buffer in &plan.buffers {

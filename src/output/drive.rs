@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use super::checkpoint::{About, Checkpoint};
 use super::folder::Folder;
+use super::forecast::particles;
 use super::health::Health;
 use super::keeper::Keeper;
 use super::manifest::Manifest;
@@ -65,7 +66,7 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         scene,
         settings,
         folder,
-        progress,
+        mut progress,
         recipe,
         start,
         wall_s,
@@ -90,11 +91,12 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
     }
     let first = recipe.first_frame;
     progress.note(&format!(
-        "{} frames, about {} in {}",
+        "{} frames go to {}, about {}",
         scene.time.frames - first,
+        folder.path().display(),
         bytes(disk_bytes(scene, &settings.outputs)),
-        folder.path().display()
     ));
+    progress.expect(particles(scene).split_off(first as usize));
     let mut simulation = Simulation::new(gpu, scene, &plan)?;
     simulation.set_timings(settings.timings);
     if let Some(state) = start.state() {
@@ -269,6 +271,10 @@ impl Run<'_> {
             usual_s = Some(begun.elapsed().as_secs_f64());
             if !given_up {
                 self.checkpoint_when_due(simulation, false)?;
+            }
+            if simulation.next_index() == 1 {
+                // There is something to look at while the next frames are made.
+                self.receive_all(simulation)?;
             }
         }
         self.stopping.files();

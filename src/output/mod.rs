@@ -8,12 +8,14 @@ mod disk;
 mod drive;
 mod estimate;
 mod folder;
+mod forecast;
 mod frame_range;
 mod given_color;
 mod health;
 pub mod interrupt;
 mod keeper;
 mod manifest;
+mod measure;
 mod memory;
 pub mod npy;
 mod particles;
@@ -48,6 +50,7 @@ pub use estimate::{checkpoints as checkpoint_estimate, disk_bytes};
 pub use frame_range::FrameRange;
 pub use keeper::{Checkpoints, Every};
 pub use manifest::schema as manifest_schema;
+pub use measure::{Measured, measure};
 pub use particles::{
     DEFAULT_COLUMNS, FORMATS as PARTICLE_FORMATS, Format as ParticleFormat, ParticleOutput, columns_named,
 };

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 
 use super::bar::Bar;
+use super::forecast::Forecast;
 use super::tally::Tally;
 use super::text::{seconds, short};
 use crate::simulation::frame::Frame;
@@ -32,6 +33,7 @@ const LINE_PAUSE: Duration = Duration::from_secs(5);
 /// Shows frames as they finish, and notes and warnings between them.
 pub struct Progress {
     show: Show,
+    forecast: Forecast,
 }
 
 #[derive(Clone)]
@@ -52,7 +54,15 @@ impl Progress {
             }
             Style::Bar | Style::Plain => Show::Plain { last: None },
         };
-        Self { show }
+        Self {
+            show,
+            forecast: Forecast::even(frames),
+        }
+    }
+
+    /// Expects so many particles of each frame, where they become more.
+    pub fn expect(&mut self, particles: Vec<f64>) {
+        self.forecast = Forecast::new(particles);
     }
 
     /// Something to know.
@@ -72,23 +82,21 @@ impl Progress {
     }
 
     pub fn frame(&mut self, frame: &Frame, tally: &Tally) {
-        let remaining_s = tally.remaining_s();
+        let remaining_s = self.forecast.add(tally.frames_done, tally.wall_s);
+        let left = remaining_s.map_or_else(String::new, |left| format!(", {} left", seconds(left)));
         let rate = short(tally.particle_steps_per_s);
         match &mut self.show {
             Show::Bar(bar) => {
                 bar.set(tally.frames_done);
-                bar.message(format!("{rate} particle steps/s, {} left", seconds(remaining_s)));
+                bar.message(format!("{rate} particle steps/s{left}"));
             }
             Show::Plain { last } => {
                 let is_last = tally.frames_done == tally.frames;
                 if is_last || last.is_none_or(|last| last.elapsed() >= LINE_PAUSE) {
                     *last = Some(Instant::now());
                     line(&format!(
-                        "frame {} of {}, t = {:.3} s, {rate} particle steps/s, {} left",
-                        tally.frames_done,
-                        tally.frames,
-                        frame.time,
-                        seconds(remaining_s)
+                        "frame {} of {}, t = {:.3} s, {rate} particle steps/s{left}",
+                        tally.frames_done, tally.frames, frame.time,
                     ));
                 }
             }

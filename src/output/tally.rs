@@ -67,10 +67,4 @@ impl Tally {
     pub fn stop_clock(&mut self) {
         self.wall_s = self.wall_before_s + self.started.elapsed().as_secs_f64();
     }
-
-    /// Seconds until the last frame, when frames keep taking as long as they did.
-    pub fn remaining_s(&self) -> f64 {
-        let left = self.frames.saturating_sub(self.frames_done);
-        self.wall_s / f64::from(self.frames_done.max(1)) * f64::from(left)
-    }
 }

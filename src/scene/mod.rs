@@ -120,6 +120,14 @@ impl Scene {
     pub fn first_wall(&self) -> u32 {
         self.capacity - self.walls.len() as u32
     }
+
+    /// The scene with frames of so many steps.
+    pub fn with_steps_per_frame(&self, steps: u32) -> Self {
+        let mut scene = self.clone();
+        scene.time.steps_per_frame = steps;
+        scene.time.fps = 1.0 / (f64::from(steps) * scene.time.step);
+        scene
+    }
 }
 
 /// What the particles are.

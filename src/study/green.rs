@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::bench::Bench;
-use super::measure::{Effort, Entry, Outcome, Times, with_steps_per_frame};
+use super::measure::{Effort, Entry, Outcome, Times};
 use super::page::{Cell, Page, Table};
 use super::parts::{self, Part};
 use super::scenes;
@@ -106,7 +106,7 @@ fn settled_bed(bench: &Bench, scale: &Scale) -> Result<Scene> {
     // One grain a voxel in the lowest quarter.
     let scene = scenes::with_particles(&file, scenes::lattice([n, n / 4, n], |_| true))?;
     let mut last = scene.particles.clone();
-    let mut run = with_steps_per_frame(&scene, scale.settle);
+    let mut run = scene.with_steps_per_frame(scale.settle);
     run.time.frames = 2;
     bench.run(&run, |_, particles| last = particles)?;
     Ok(scenes::replaced(&scene, last))
@@ -268,7 +268,7 @@ fn rate(page: &mut Page, bench: &Bench, scale: &Scale, bed: &Scene) -> Result<()
         let Ok(scene) = scenes::with_grid(&bed, grid) else {
             continue;
         };
-        let rate = bench.frames_per_second(&with_steps_per_frame(&scene, 1), scale.frames);
+        let rate = bench.frames_per_second(&scene.with_steps_per_frame(1), scale.frames);
         table.row([
             Cell::text("this adapter"),
             Cell::text(format!("`{grid}`")),

@@ -160,7 +160,7 @@ struct Measured {
 
 impl Measured {
     fn new(bench: &Bench, entry: &Entry, effort: Effort) -> Result<Self> {
-        let scene = with_steps_per_frame(&entry.scene, effort.steps);
+        let scene = entry.scene.with_steps_per_frame(effort.steps);
         let gpu = bench.gpu()?;
         let plan = Plan::new(&scene, &gpu.limits, &Wanted::default())?.with_its_lists()?;
         let is_search = |shader: &str| shader.starts_with("cells/") || shader.starts_with("storage/");
@@ -247,14 +247,6 @@ impl Measured {
             passes,
         }
     }
-}
-
-/// The scene with frames of so many steps.
-pub fn with_steps_per_frame(scene: &Scene, steps: u32) -> Scene {
-    let mut scene = scene.clone();
-    scene.time.steps_per_frame = steps;
-    scene.time.fps = 1.0 / (f64::from(steps) * scene.time.step);
-    scene
 }
 
 #[cfg(test)]

@@ -11,7 +11,6 @@ use crate::neighbors::ADDRESSINGS;
 use crate::output::text::count;
 use crate::scene::Scene;
 use crate::study::bench::{Bench, LISTED};
-use crate::study::measure::with_steps_per_frame;
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
 
@@ -51,7 +50,7 @@ fn dam(tank: u32, columns: u32, layers: u32, steps: u32) -> Result<Scene> {
         "neighbors": { "cell": "half", "slots": SLOTS, "slicing_axis": "y", "skin": 0 },
         "time": { "fps": 1000 }
     }))?;
-    let mut scene = with_steps_per_frame(&scene, steps);
+    let mut scene = scene.with_steps_per_frame(steps);
     scene.time.frames = 2;
     Ok(scene)
 }

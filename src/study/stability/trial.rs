@@ -5,7 +5,6 @@ use crate::plan::Wanted;
 use crate::scene::{Particles, Scene};
 use crate::simulation::frame::{Frame, Statistics};
 use crate::study::bench::{Bench, first_line, particles};
-use crate::study::measure::with_steps_per_frame;
 
 /// Figures of a frame; energies in joules, speeds in m/s.
 pub struct Moment {
@@ -30,7 +29,7 @@ pub struct Trial {
 
 /// Runs `frames` intervals of so many steps; why not, where the simulation gave up.
 pub fn run(bench: &Bench, scene: &Scene, steps: u32, frames: u32) -> Result<Trial, String> {
-    let mut scene = with_steps_per_frame(scene, steps);
+    let mut scene = scene.with_steps_per_frame(steps);
     scene.time.frames = frames + 1;
     let told = |error: crate::error::Error| first_line(&error);
     let wanted = Wanted {
