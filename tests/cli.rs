@@ -123,6 +123,22 @@ fn unknown_scenes_columns_and_grids_are_told_with_what_there_is() {
 }
 
 #[test]
+fn schema_explains_what_runs_write() {
+    let explained = output(&["schema", "--of", "stats", "density_error_mean"]);
+    assert!(
+        explained.starts_with("density_error_mean: a number; not always there\n"),
+        "{explained}"
+    );
+    let explained = output(&["schema", "--of", "run", "status"]);
+    assert!(
+        explained.contains("always there") && explained.contains("interrupted"),
+        "{explained}"
+    );
+    assert!(json(&["schema", "--of", "run"])["properties"]["recipe"].is_object());
+    assert!(failure(&["schema", "--of", "stats", "gravity"], 2).contains("stats.jsonl"));
+}
+
+#[test]
 fn schema_describes_every_key_of_a_scene() {
     let schema = json(&["schema"]);
     for key in [

@@ -2,17 +2,32 @@
 
 use super::stdout;
 use crate::error::{Error, Result};
+use crate::output;
 use crate::scene::keys::{self, Key};
 use crate::scene::{load, synonyms};
 
 /// Prints the JSON schema of scene files, or explains one of their keys
 ///
-/// With KEY it says what the key means, its unit, which values it takes, and what holds where it is left out.
+/// With KEY it says what the key means, its unit, which values it takes, and what holds where it is left out. With --of it
+/// does the same for what a run writes about itself.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
     /// A key with its path (fluid.viscosity, bodies[0].shape), or the last part of one (viscosity)
     key: Option<String>,
+    /// Whose keys
+    #[arg(long, value_enum, value_name = "FILE", default_value = "scene")]
+    of: Of,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Of {
+    /// Scene files
+    Scene,
+    /// A line of stats.jsonl
+    Stats,
+    /// run.json
+    Run,
 }
 
 const EXAMPLES: &str = "\
@@ -20,22 +35,27 @@ Examples:
   sliceflow schema fluid.viscosity
   sliceflow schema bodies.shape
   sliceflow schema render.camera
+  sliceflow schema --of stats density_error_mean
   sliceflow schema > scene.schema.json     then, in a scene: \"$schema\": \"scene.schema.json\"";
 
 /// Columns of text in a terminal.
 const WIDTH: usize = 100;
 
 pub fn main(args: &Args) -> Result<()> {
-    let schema = load::schema();
+    let schema = match args.of {
+        Of::Scene => load::schema(),
+        Of::Stats => output::statistics_schema(),
+        Of::Run => output::manifest_schema(),
+    };
     let Some(typed) = &args.key else {
         return stdout::print_json(&schema);
     };
     let keys = keys::all(&schema);
     let found = find(typed, &keys);
     if found.is_empty() {
-        return Err(unknown(typed, &keys));
+        return Err(unknown(typed, args.of, &keys));
     }
-    let texts: Vec<_> = found.into_iter().map(explain).collect();
+    let texts: Vec<_> = found.into_iter().map(|key| explain(key, args.of)).collect();
     stdout::print(&texts.join("\n"))
 }
 
@@ -68,12 +88,17 @@ fn without_brackets(path: &str) -> String {
     plain
 }
 
-fn explain(key: &Key) -> String {
+fn explain(key: &Key, of: Of) -> String {
+    let presence = match of {
+        Of::Scene => &key.presence,
+        _ if key.is_required => "always there",
+        _ => "not always there",
+    };
     let kinds = match &key.of_kinds[..] {
         [] => String::new(),
         kinds => format!(" (of kind {})", kinds.join(", ")),
     };
-    let mut text = format!("{}{kinds}: {}; {}\n", key.path, key.value, key.presence);
+    let mut text = format!("{}{kinds}: {}; {presence}\n", key.path, key.value);
     for about in &key.about {
         text.push_str(&paragraph("  ", about));
     }
@@ -108,13 +133,16 @@ fn paragraph(head: &str, text: &str) -> String {
 }
 
 /// What was asked for may be another program's name of a key, one of the words that a key takes, or a typing mistake.
-fn unknown(typed: &str, keys: &[Key]) -> Error {
+fn unknown(typed: &str, of: Of, keys: &[Key]) -> Error {
     let wanted = without_brackets(typed);
     let last = wanted.rsplit('.').next().unwrap_or(&wanted);
-    let mut near: Vec<String> = synonyms::keys_for(last)
-        .iter()
-        .map(|&key| key.to_owned())
-        .collect();
+    let mut near: Vec<String> = match of {
+        Of::Scene => synonyms::keys_for(last)
+            .iter()
+            .map(|&key| key.to_owned())
+            .collect(),
+        _ => Vec::new(),
+    };
     if near.is_empty() {
         let takes = |key: &&Key| key.choices.iter().any(|(word, _)| word == last);
         near.extend(keys.iter().filter(takes).map(Key::plain_path));
@@ -134,7 +162,12 @@ fn unknown(typed: &str, keys: &[Key]) -> Error {
         }
         near => format!("did you mean {}?", quoted(near)),
     };
-    Error::usage(format!("no key of scenes is called `{typed}`"), help)
+    let whose = match of {
+        Of::Scene => "scenes",
+        Of::Stats => "stats.jsonl",
+        Of::Run => "run.json",
+    };
+    Error::usage(format!("no key of {whose} is called `{typed}`"), help)
 }
 
 /// `` `a`, `b` or `c` ``

@@ -25,6 +25,7 @@ pub struct Key {
     pub about: Vec<String>,
     /// `a number from 0 to 10`
     pub value: String,
+    pub is_required: bool,
     /// `0.5 when left out`
     pub presence: String,
     /// Words that the value may be, or keys of the object, each with what it means.
@@ -156,6 +157,7 @@ impl<'a> Walk<'a> {
                 Some(_) => "a word".to_owned(),
                 None => self.value(real),
             },
+            is_required,
             presence: match (default(&schema["default"]), is_required) {
                 (Some(default), _) => format!("{default} when left out"),
                 (None, true) => "must be given".to_owned(),
