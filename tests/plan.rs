@@ -3,8 +3,8 @@
 mod common;
 
 use sliceflow::error::Error;
-use sliceflow::gpu::device::Limits;
-use sliceflow::neighbors::STORAGES;
+use sliceflow::gpu::{Limits, Shader};
+use sliceflow::neighbors::{STORAGES, lists};
 use sliceflow::output::columns_named;
 use sliceflow::plan::{Phase, Plan, Wanted};
 use sliceflow::scene::Scene;
@@ -229,4 +229,158 @@ fn what_does_not_fit_is_refused_with_the_number_that_would() {
         panic!("another error");
     };
     assert!(help.contains("500 particles would fit"), "{help}");
+}
+
+/// Limits that bind no buffer of more bytes.
+fn binding(bytes: u64) -> Limits {
+    Limits {
+        binding: bytes,
+        ..Limits::PROMISED
+    }
+}
+
+fn bytes_of(plan: &Plan, name: &str) -> Option<u64> {
+    plan.buffers.iter().find(|b| b.name == name).map(|b| b.bytes)
+}
+
+#[test]
+fn lists_are_as_long_as_fits_and_left_out_where_the_usual_ones_do_not() {
+    for dimensions in [2, 3] {
+        for scene in [common::scene(dimensions, &[]), common::fluid(dimensions, &[])] {
+            let usual = lists::usual_length(&scene);
+            let roomy = plan(&scene, &Wanted::default());
+            assert!(roomy.grid.list_capacity > usual);
+            let of_length = |length: u32| lists::buffers(&scene, length)[0].bytes;
+            assert_eq!(
+                bytes_of(&roomy, "neighbor_list"),
+                Some(of_length(roomy.grid.list_capacity))
+            );
+            for length in [usual, usual + 1] {
+                let fitted = Plan::new(&scene, &binding(of_length(length)), &Wanted::default()).unwrap();
+                assert_eq!(fitted.lists_left_out, None);
+                assert_eq!(bytes_of(&fitted, "neighbor_list"), Some(of_length(length)));
+            }
+            let small = binding(of_length(usual) - 1);
+            let fitted = Plan::new(&scene, &small, &Wanted::default()).unwrap();
+            let told = fitted.lists_left_out.clone().expect("it says so");
+            assert!(
+                told.contains(&format!("{} bytes", of_length(usual))) && told.contains("without lists"),
+                "{told}"
+            );
+            assert!(fitted.told().any(|note| *note == told));
+            // It is the plan of the scene that asks for none.
+            let unlisted = Plan {
+                lists_left_out: Some(told),
+                ..Plan::new(&lists::without(&scene), &small, &Wanted::default()).unwrap()
+            };
+            assert_eq!(serde_json::json!(fitted), serde_json::json!(unlisted));
+            assert_eq!((fitted.grid, &fitted.variant), (unlisted.grid, &unlisted.variant));
+            assert!(fitted.with_its_lists().is_err());
+        }
+    }
+}
+
+#[test]
+fn scenes_that_need_lists_are_refused_where_these_do_not_fit() {
+    for (scene, needed_by) in [
+        (common::scene(2, &["time.adaptive=true"]), "adaptive steps"),
+        (
+            common::fluid(2, &["domain.walls=periodic", "colliders=[]"]),
+            "periodic sides",
+        ),
+    ] {
+        let usual = lists::usual_length(&scene);
+        let small = binding(lists::buffers(&scene, usual)[0].bytes - 1);
+        let error = Plan::new(&scene, &small, &Wanted::default()).expect_err("no room");
+        let Error::Limit { what, help } = error else {
+            panic!("{error}")
+        };
+        assert!(what.contains(&format!("{needed_by} need lists")), "{what}");
+        assert!(help.contains("sliceflow devices"), "{help}");
+    }
+}
+
+#[test]
+fn passes_and_draws_say_what_they_take_of_an_adapter() {
+    let scene = common::scene(3, &[]);
+    let wanted = Wanted {
+        view: Some(View::Both),
+        ..Default::default()
+    };
+    let plan = plan(&scene, &wanted);
+    for row in &plan.passes {
+        let shader = Shader::load(&row.pass.shader, &plan.variant_of(row.phase)).unwrap();
+        assert_eq!(
+            row.demand,
+            shader.demand(&[&row.pass.entry]).unwrap(),
+            "{}",
+            row.pass.entry
+        );
+        assert!(
+            row.demand.storage_buffers > 0 && row.demand.threads > 0,
+            "{row:?}"
+        );
+    }
+    // A stage of a draw binds what it uses itself.
+    let sphere = plan
+        .draws
+        .iter()
+        .find(|draw| draw.label == "place_sphere")
+        .unwrap();
+    assert_eq!(sphere.fragment.as_deref(), Some("shade_sphere"));
+    assert!(
+        sphere.demand.bindings > sphere.demand.storage_buffers && sphere.demand.textures > 0,
+        "{sphere:?}"
+    );
+    // The scan shares one word a thread.
+    let scan = plan
+        .passes
+        .iter()
+        .map(|row| row.demand)
+        .find(|d| d.threads == 256)
+        .unwrap();
+    assert_eq!(scan.group_bytes, 4 * 256);
+
+    let (label, most) = plan.most_storage_buffers();
+    let enough = Limits {
+        storage_buffers: most,
+        ..Limits::PROMISED
+    };
+    Plan::new(&scene, &enough, &wanted).expect("exactly enough");
+    let scarce = Limits {
+        storage_buffers: most - 1,
+        ..Limits::PROMISED
+    };
+    let error = Plan::new(&scene, &scarce, &wanted).expect_err("one is missing");
+    let expected = format!(
+        "pass `{label}` binds {most} storage buffers; this adapter allows {}",
+        most - 1
+    );
+    assert!(error.to_string().starts_with(&expected), "{error}");
+}
+
+#[test]
+fn everything_that_an_adapter_limits_is_checked() {
+    let scene = common::scene(3, &[]);
+    let wanted = pictures();
+    type Lower = fn(&mut Limits);
+    let rows: [(Lower, &str); 11] = [
+        (|l| l.storage_buffers = 1, "storage buffers"),
+        (|l| l.uniform_buffers = 0, "uniform buffers"),
+        (|l| l.textures = 0, "textures"),
+        (|l| l.samplers = 0, "samplers"),
+        (|l| l.bindings = 2, "resources"),
+        (|l| l.binding = 1000, "binds at most 1000 at once"),
+        (|l| l.uniform = 16, "uniform buffer"),
+        (|l| l.buffer = 1000, "binds at most 1000 at once"),
+        (|l| l.threads = 128, "threads in a workgroup"),
+        (|l| l.group_bytes = 512, "bytes in a workgroup"),
+        (|l| l.groups = 1, "workgroups"),
+    ];
+    for (lower, told) in rows {
+        let mut limits = Limits::PROMISED;
+        lower(&mut limits);
+        let error = Plan::new(&scene, &limits, &wanted).expect_err(told).to_string();
+        assert!(error.contains(told) && error.contains("help: "), "{error}");
+    }
 }

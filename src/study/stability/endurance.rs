@@ -55,7 +55,7 @@ pub fn rests(page: &mut Page, bench: &Bench, scale: &Scale, failures: &mut Failu
         ));
         let scene = resting(method)?;
         let name = format!("{} at rest", method.name());
-        let trial = match run(bench, &scene, scale.long.div_ceil(INTERVALS), INTERVALS) {
+        let trial = match run(bench, &scene, scale.long.div_ceil(INTERVALS), INTERVALS)? {
             Ok(trial) => trial,
             Err(why) => {
                 let mut row = vec![Cell::text(method.name())];

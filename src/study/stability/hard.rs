@@ -75,7 +75,7 @@ fn coincident(bench: &Bench, tried: Tried, steps: u32) -> Result<Outcome> {
         .method
         .scene(block([0.4, 0.0], 8, 8), |file| tried.expect(file))?;
     scene.particles.position[27] = scene.particles.position[28];
-    Ok(run(bench, &scene, steps, 1).and_then(|trial| {
+    Ok(run(bench, &scene, steps, 1)?.and_then(|trial| {
         let apart = trial.last.position[27].distance(trial.last.position[28]);
         let apart = f64::from(apart) / SPACING;
         match apart > APART {
@@ -91,7 +91,7 @@ fn isolated(bench: &Bench, tried: Tried, steps: u32) -> Result<Outcome> {
         file["domain"]["walls"] = "open".into();
     })?;
     scene.particles.velocity[0] = glam::Vec3::ZERO;
-    Ok(run(bench, &scene, steps, 1).and_then(|trial| {
+    Ok(run(bench, &scene, steps, 1)?.and_then(|trial| {
         let time = scene.time.step * f64::from(steps);
         let gravity = f64::from(scene.gravity.length());
         // Symplectic Euler falls by half a step more.
@@ -118,7 +118,7 @@ fn lattice(bench: &Bench, tried: Tried, steps: u32) -> Result<Outcome> {
             file["domain"]["walls"] = "periodic".into();
         }
     })?;
-    Ok(run(bench, &scene, steps, 1).and_then(|trial| {
+    Ok(run(bench, &scene, steps, 1)?.and_then(|trial| {
         let fastest = trial.moments.last().map_or(f64::NAN, |m| m.figures.max_speed) / EXPECTED;
         match fastest < STILL {
             true => Ok(()),
@@ -131,7 +131,7 @@ fn impact(bench: &Bench, tried: Tried, steps: u32) -> Result<Outcome> {
     let mut body = block([0.4, SPACING], 8, 8);
     body["velocity"] = json!([0, -10.0 * EXPECTED]);
     let scene: Scene = tried.method.scene(body, |file| tried.expect(file))?;
-    Ok(kept(bench, &scene, steps))
+    kept(bench, &scene, steps)
 }
 
 fn clash(bench: &Bench, tried: Tried, steps: u32) -> Result<Outcome> {
@@ -147,22 +147,25 @@ fn clash(bench: &Bench, tried: Tried, steps: u32) -> Result<Outcome> {
         file["gravity"] = json!([0, 0]);
         file["domain"]["walls"] = "open".into();
     })?;
-    Ok(kept(bench, &scene, steps))
+    kept(bench, &scene, steps)
 }
 
 /// Whether all particles stay, and no energy comes from nowhere.
-fn kept(bench: &Bench, scene: &Scene, steps: u32) -> Outcome {
+fn kept(bench: &Bench, scene: &Scene, steps: u32) -> Result<Outcome> {
     // Frames often enough to see a gain.
-    let trial = run(bench, scene, steps.div_ceil(10), 10)?;
+    let trial = match run(bench, scene, steps.div_ceil(10), 10)? {
+        Ok(trial) => trial,
+        Err(why) => return Ok(Err(why)),
+    };
     let first = trial.moments[0].energy();
     let most = trial.moments.iter().map(|m| m.energy() / first);
     let most = most.fold(0.0, f64::max);
     let open = scene.domain.is_open();
-    match (lost(scene, &trial.last), most > 1.0 + GAIN) {
+    Ok(match (lost(scene, &trial.last), most > 1.0 + GAIN) {
         (lost, _) if lost > 0 && !open => Err(format!("{lost} particles are lost")),
         (_, true) => Err(format!("energy becomes {} times the first", shown(most))),
         _ => Ok(()),
-    }
+    })
 }
 
 impl Tried {

@@ -78,7 +78,7 @@ pub fn longest(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
             "stability: steps of {}, {}",
             case.method, case.scene_name
         ));
-        let found = bisect(bench, &case, scale.halvings);
+        let found = bisect(bench, &case, scale.halvings)?;
         let micro = |seconds: Option<f64>| Cell::maybe(seconds.map(|s| s * 1e6));
         let ratio = |to: Option<f64>| Cell::maybe(found.stable.zip(to).map(|(a, b)| a / b));
         table.row([
@@ -214,38 +214,38 @@ fn column(method: Method) -> Result<Case> {
 }
 
 /// Looks between a quarter of what is expected and four times that.
-fn bisect(bench: &Bench, case: &Case, halvings: u32) -> Found {
-    let is_stable = |step: f64| {
+fn bisect(bench: &Bench, case: &Case, halvings: u32) -> Result<Found> {
+    let is_stable = |step: f64| -> Result<bool> {
         let mut scene = case.scene.clone();
         scene.time.step = step;
         let frames = 4;
-        let trial = run(bench, &scene, (case.steps)(step).div_ceil(frames), frames);
-        trial.is_ok_and(|trial| (case.is_stable)(&scene, &trial))
+        let trial = run(bench, &scene, (case.steps)(step).div_ceil(frames), frames)?;
+        Ok(trial.is_ok_and(|trial| (case.is_stable)(&scene, &trial)))
     };
     let middle = case.theory.unwrap_or(2.0 * case.usual);
     let (mut low, mut high) = (middle / 4.0, middle * 4.0);
-    if !is_stable(low) {
-        return Found {
+    if !is_stable(low)? {
+        return Ok(Found {
             stable: None,
             unstable: Some(low),
-        };
+        });
     }
-    if is_stable(high) {
-        return Found {
+    if is_stable(high)? {
+        return Ok(Found {
             stable: Some(high),
             unstable: None,
-        };
+        });
     }
     for _ in 0..halvings {
         let step = (low * high).sqrt();
-        if is_stable(step) {
+        if is_stable(step)? {
             low = step;
         } else {
             high = step;
         }
     }
-    Found {
+    Ok(Found {
         stable: Some(low),
         unstable: Some(high),
-    }
+    })
 }

@@ -1,7 +1,8 @@
 //! A short run and what is seen of it.
 
-use crate::output::columns_named;
+use crate::error::{Error, Result};
 use crate::plan::Wanted;
+use crate::output::columns_named;
 use crate::scene::{Particles, Scene};
 use crate::simulation::frame::{Frame, Statistics};
 use crate::study::bench::{Bench, first_line, particles};
@@ -28,16 +29,34 @@ pub struct Trial {
 }
 
 /// Runs `frames` intervals of so many steps; why not, where the simulation gave up.
-pub fn run(bench: &Bench, scene: &Scene, steps: u32, frames: u32) -> Result<Trial, String> {
+///
+/// # Errors
+///
+/// What is wrong with the device, which tells nothing about the solver.
+pub fn run(
+    bench: &Bench,
+    scene: &Scene,
+    steps: u32,
+    frames: u32,
+) -> Result<std::result::Result<Trial, String>> {
+    match tried(bench, scene, steps, frames) {
+        Ok(trial) if trial.moments.iter().any(|m| !m.energy().is_finite()) => {
+            Ok(Err("energy is not finite".into()))
+        }
+        Err(error @ (Error::Device { .. } | Error::Limit { .. } | Error::Shader { .. })) => Err(error),
+        other => Ok(other.map_err(|error| first_line(&error))),
+    }
+}
+
+fn tried(bench: &Bench, scene: &Scene, steps: u32, frames: u32) -> Result<Trial> {
     let mut scene = scene.with_steps_per_frame(steps);
     scene.time.frames = frames + 1;
-    let told = |error: crate::error::Error| first_line(&error);
     let wanted = Wanted {
         statistics: true,
-        columns: columns_named(["position", "velocity"]).map_err(told)?,
+        columns: columns_named(["position", "velocity"])?,
         ..Default::default()
     };
-    let mut simulation = bench.simulation(&scene, &wanted).map_err(told)?;
+    let mut simulation = bench.simulation(&scene, &wanted)?;
     let mut trial = Trial {
         moments: Vec::new(),
         last: Particles::default(),
@@ -53,15 +72,12 @@ pub fn run(bench: &Bench, scene: &Scene, steps: u32, frames: u32) -> Result<Tria
         }
     };
     for _ in 0..scene.time.frames {
-        if let Some(frame) = simulation.next_frame().map_err(told)? {
+        if let Some(frame) = simulation.next_frame()? {
             take(frame);
         }
     }
-    while let Some(frame) = simulation.finish_frame().map_err(told)? {
+    while let Some(frame) = simulation.finish_frame()? {
         take(frame);
-    }
-    if trial.moments.iter().any(|m| !m.energy().is_finite()) {
-        return Err("energy is not finite".into());
     }
     Ok(trial)
 }
