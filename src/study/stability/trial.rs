@@ -1,9 +1,10 @@
 //! A short run and what is seen of it.
 
 use crate::error::{Error, Result};
-use crate::plan::Wanted;
 use crate::output::columns_named;
+use crate::plan::Wanted;
 use crate::scene::{Particles, Scene};
+use crate::simulation::Simulation;
 use crate::simulation::frame::{Frame, Statistics};
 use crate::study::bench::{Bench, first_line, particles};
 
@@ -39,16 +40,6 @@ pub fn run(
     steps: u32,
     frames: u32,
 ) -> Result<std::result::Result<Trial, String>> {
-    match tried(bench, scene, steps, frames) {
-        Ok(trial) if trial.moments.iter().any(|m| !m.energy().is_finite()) => {
-            Ok(Err("energy is not finite".into()))
-        }
-        Err(error @ (Error::Device { .. } | Error::Limit { .. } | Error::Shader { .. })) => Err(error),
-        other => Ok(other.map_err(|error| first_line(&error))),
-    }
-}
-
-fn tried(bench: &Bench, scene: &Scene, steps: u32, frames: u32) -> Result<Trial> {
     let mut scene = scene.with_steps_per_frame(steps);
     scene.time.frames = frames + 1;
     let wanted = Wanted {
@@ -56,7 +47,16 @@ fn tried(bench: &Bench, scene: &Scene, steps: u32, frames: u32) -> Result<Trial>
         columns: columns_named(["position", "velocity"])?,
         ..Default::default()
     };
-    let mut simulation = bench.simulation(&scene, &wanted)?;
+    match tried(bench.simulation(&scene, &wanted)?, &scene) {
+        Ok(trial) if trial.moments.iter().any(|m| !m.energy().is_finite()) => {
+            Ok(Err("energy is not finite".into()))
+        }
+        Err(error @ (Error::Device { .. } | Error::Shader { .. })) => Err(error),
+        other => Ok(other.map_err(|error| first_line(&error))),
+    }
+}
+
+fn tried(mut simulation: Simulation, scene: &Scene) -> Result<Trial> {
     let mut trial = Trial {
         moments: Vec::new(),
         last: Particles::default(),
