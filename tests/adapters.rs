@@ -67,7 +67,8 @@ fn assert_same(one: &[Frame], two: &[Frame], what: &str) {
 
 /// The limit that leaves room for lists of so many neighbors, and for no more.
 fn room_for_lists(scene: &Scene, length: u32) -> String {
-    format!("binding={}", 4 * scene.capacity * length)
+    // A row begins with the number of neighbors.
+    format!("binding={}", 4 * scene.capacity * (length + 1))
 }
 
 #[test]
@@ -76,7 +77,7 @@ fn a_run_whose_lists_do_not_fit_is_the_run_without_lists() {
     for scene in [
         common::scene(2, &[small]),
         common::scene(3, &[small]),
-        common::fluid(2, &[small]),
+        common::fluid(2, &[small, "colliders=[]"]),
     ] {
         let wanted = Wanted {
             view: Some(View::Scene),
@@ -99,7 +100,7 @@ fn a_run_whose_lists_do_not_fit_is_the_run_without_lists() {
 fn implosion(dimensions: usize) -> Scene {
     let base = common::scene(dimensions, &[]);
     let diameter = 2.0 * base.radius() as f32;
-    let side = if dimensions == 2 { 16 } else { 7 };
+    let side = if dimensions == 2 { 20 } else { 7 };
     let layers = if dimensions == 2 { 1 } else { side };
     let mut position = Vec::new();
     for x in 0..side {
@@ -329,10 +330,10 @@ const COMMANDS: [&[&str]; 9] = [
         "--out",
         "new",
     ],
-    &["render", "--from", "done", "--out", "new"],
+    &["render", "done", "--out", "new"],
     &["inspect", "column_2d", "--frame", "0"],
     &["neighbors", "points.csv", "--radius", "1.5", "--lists", "new"],
-    &["study", "rojas", "--size", "tiny", "--out", "new"],
+    &["study", "rojas", "--scale", "tiny", "--out", "new"],
 ];
 
 #[test]

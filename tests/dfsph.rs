@@ -107,12 +107,7 @@ fn a_block_in_free_flight_keeps_its_momentum() {
     for dimensions in [2, 3] {
         let mut scene = dfsph(
             dimensions,
-            &[
-                "colliders=[]",
-                "domain.walls=open",
-                "gravity=null",
-                "fluid.viscosity=0.1",
-            ],
+            &["colliders=[]", "domain.walls=open", "fluid.viscosity=0.1"],
         );
         let velocity = Vec3::new(0.5, 0.3, 0.0);
         for (k, v) in scene.particles.velocity.iter_mut().enumerate() {

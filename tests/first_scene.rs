@@ -201,7 +201,7 @@ fn quiet_runs_tell_warnings_alone() {
 fn shells_complete_commands() {
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let script = output(&["completions", shell]);
-        for word in ["inspect", "--checkpoint-every", "harada"] {
+        for word in ["inspect", "--checkpoint-every"] {
             assert!(
                 script.contains(word) || script.contains(word.trim_start_matches('-')),
                 "{shell}: {word}"

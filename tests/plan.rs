@@ -36,9 +36,9 @@ fn two_dimensions_do_no_work_of_three() {
     assert_eq!(flat.variant.constants["DIMENSIONS"], 2);
     assert!(flat.variant.flags.contains("two_dimensional"));
     assert_eq!(flat.grid.size[2], 1);
-    // Two floats a vector, not four.
+    // A vector and a number beside it, as in space.
     let position = flat.buffers.iter().find(|b| b.name == "position").unwrap();
-    assert_eq!(position.bytes, 8 * u64::from(scene.capacity));
+    assert_eq!(position.bytes, 16 * u64::from(scene.capacity));
     // Three rows of voxels around one, not nine: read from the shader that runs.
     let rows = |plan: &Plan| {
         let shader = sliceflow::gpu::compose::compose("physics/dem/symplectic_euler", &plan.variant).unwrap();
@@ -228,7 +228,7 @@ fn what_does_not_fit_is_refused_with_the_number_that_would() {
     else {
         panic!("another error");
     };
-    assert!(help.contains("500 particles would fit"), "{help}");
+    assert!(help.contains("250 particles would fit"), "{help}");
 }
 
 /// Limits that bind no buffer of more bytes.

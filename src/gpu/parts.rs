@@ -123,6 +123,7 @@ impl Items {
 pub struct Repeat {
     /// Tells loops of a step apart.
     pub number: u32,
+    /// How often they are recorded: as often as they may run.
     pub times: u32,
 }
 

@@ -172,7 +172,7 @@ mod tests {
 
     #[test]
     fn emitters_and_drops_are_counted() {
-        let text = r#"{ "dimensions": 2, "domain": { "min": [0, 0], "max": [1, 1] }, "grains": { "radius": 0.01 },
+        let text = r#"{ "dimensions": 2, "domain": { "min": [0, 0], "max": [1, 1] }, "grains": { "radius": 0.01, "density": 1500, "spring": 2000, "restitution": 0.5 },
             "bodies": [{ "shape": { "kind": "box", "min": [0.1, 0.1], "max": [0.3, 0.3] } }],
             "events": [{ "at": 0.15, "drop": { "center": [0.5, 0.5], "radius": 0.1 } }],
             "time": { "duration": 0.3, "fps": 10 } }"#;

@@ -100,6 +100,7 @@ pub struct Plan {
     pub particles_at_start: u32,
     /// The same when every event has happened.
     pub particles: u32,
+    /// Particles of walls and obstacles, which carry pressure and velocity of a fluid on.
     pub boundary_particles: u32,
     /// What buffers have room for: all of them.
     pub capacity: u32,

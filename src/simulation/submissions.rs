@@ -72,8 +72,10 @@ impl Submissions {
 /// How many steps the next submissions should have, after `steps` took so long. More come slowly, since a wait that was
 /// short may only mean that the device was done before the host looked.
 fn steps_for(most: u64, steps: u64, took: Duration) -> u64 {
-    let fitting = LONGEST.as_secs_f64() / took.as_secs_f64().max(1e-9) * steps as f64;
-    (fitting as u64).clamp(1, (2 * most).min(MOST_STEPS))
+    let fitting = LONGEST.as_nanos() * u128::from(steps) / took.as_nanos().max(1);
+    u64::try_from(fitting)
+        .unwrap_or(u64::MAX)
+        .clamp(1, (2 * most).min(MOST_STEPS))
 }
 
 #[cfg(test)]
