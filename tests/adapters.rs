@@ -12,7 +12,6 @@ use sliceflow::gpu::{AdapterChoice, Buffers, Gpu};
 use sliceflow::output::columns_named;
 use sliceflow::plan::{Plan, Wanted};
 use sliceflow::scene::Scene;
-use sliceflow::scene::model::View;
 use sliceflow::simulation::{Frame, Simulation, State};
 
 /// The test adapter with lower limits, with all checks in the shaders.
@@ -79,10 +78,7 @@ fn a_run_whose_lists_do_not_fit_is_the_run_without_lists() {
         common::scene(3, &[small]),
         common::fluid(2, &[small, "colliders=[]"]),
     ] {
-        let wanted = Wanted {
-            view: Some(View::Scene),
-            ..wanted()
-        };
+        let wanted = wanted();
         let usual = sliceflow::neighbors::lists::usual_length(&scene);
         let limits = room_for_lists(&scene, usual - 1);
         let mut lesser = simulate(&limits, &scene, &wanted);
@@ -332,7 +328,7 @@ const COMMANDS: [&[&str]; 9] = [
     ],
     &["render", "done", "--out", "new"],
     &["inspect", "column_2d", "--frame", "0"],
-    &["neighbors", "points.csv", "--radius", "1.5", "--lists", "new"],
+    &["neighbors", "points.csv", "--radius", "1.5", "--lists", "pairs"],
     &["study", "rojas", "--scale", "tiny", "--out", "new"],
 ];
 

@@ -166,6 +166,7 @@ pub enum FluidSolver {
     #[default]
     Wcsph,
     /// Divergence-free, incompressible SPH (Bender and Koschier 2015, 2017): long adaptive steps, pressures by iteration.
+    /// Young: pressures along walls are too high, and impacts take many iterations.
     Dfsph,
 }
 
