@@ -329,7 +329,7 @@ const COMMANDS: [&[&str]; 9] = [
     &["render", "done", "--out", "new"],
     &["inspect", "column_2d", "--frame", "0"],
     &["neighbors", "points.csv", "--radius", "1.5", "--lists", "pairs"],
-    &["study", "rojas", "--scale", "tiny", "--out", "new"],
+    &["study", "rojas", "--scale", "tiny", "--out", "new", "--force"],
 ];
 
 #[test]
