@@ -118,8 +118,8 @@ mod tests {
         };
         let expected = run(&[100.0; 60], clock, 0..60);
         assert_eq!(expected[..2], [None, None]);
-        for index in 2..60 {
-            near(expected[index], 59.0 - index as f64);
+        for (index, &left) in expected.iter().enumerate().skip(2) {
+            near(left, 59.0 - index as f64);
         }
     }
 
