@@ -302,8 +302,7 @@ fn collect(folder: &Path, into: &mut String) {
             collect(&path, into);
         } else if path.extension().is_some_and(|ending| ending == "rs") {
             let text = read(&path);
-            let mut lines = text.lines().peekable();
-            while let Some(line) = lines.next() {
+            for line in text.lines() {
                 match line.strip_suffix('\\') {
                     Some(begun) => {
                         into.push_str(if into.ends_with('\n') {
