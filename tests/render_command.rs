@@ -1,6 +1,6 @@
 //! `sliceflow render RUN`: some of the frames, a video, and colors that the run's files hold.
 
-#![cfg(unix)]
+#![cfg(all(unix, feature = "cli", feature = "video"))]
 
 #[path = "common/place.rs"]
 mod place;
