@@ -15,6 +15,7 @@ impl QuietArgs {
         if self.quiet { Style::None } else { otherwise }
     }
 
+    #[cfg(any(feature = "study", feature = "surface"))]
     pub fn is_quiet(self) -> bool {
         self.quiet
     }
