@@ -118,9 +118,11 @@ pub fn can_be_left_out(scene: &Scene) -> bool {
 /// What of a scene needs lists, and what helps to do without.
 fn needed_by(scene: &Scene) -> Option<(&'static str, &'static str)> {
     if scene.domain.period() != glam::Vec3::ZERO {
-        Some(("periodic sides", "choose other sides"))
+        Some(("periodic sides need lists", "choose other sides"))
     } else if scene.time.adaptive.is_some() {
-        Some(("adaptive steps", "set time.adaptive to false"))
+        Some(("adaptive steps need lists", "set time.adaptive to false"))
+    } else if every_step(scene) {
+        Some(("the solver `dfsph` needs lists", "choose another fluid.solver"))
     } else {
         None
     }
@@ -142,8 +144,8 @@ pub fn left_out(scene: &Scene, length: u32, limits: &Limits) -> Result<String> {
         None => Ok(format!(
             "{why}: neighbors are searched in every step, without lists, which takes longer"
         )),
-        Some((needed_by, instead)) => Err(Error::Limit {
-            what: format!("{why}, and {needed_by} need lists"),
+        Some((need, instead)) => Err(Error::Limit {
+            what: format!("{why}, and {need}"),
             help: format!(
                 "take fewer particles, set neighbors.skin lower, {instead}, or choose another adapter (`sliceflow \
                  devices` lists them)"
