@@ -39,8 +39,6 @@ impl Buffers {
             usage: binding | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         };
-        // What it replaces makes room for it.
-        self.by_name.remove(name);
         let what = || format!("buffer `{name}` of {bytes} bytes");
         let buffer = gpu.make(what, |device| device.create_buffer(&descriptor))?;
         self.by_name.insert(name.to_owned(), buffer);
