@@ -69,7 +69,7 @@ pub enum Error {
     Device { what: String, help: String },
     /// The scene needs more than the adapter has.
     Limit { what: String, help: String },
-    /// A shader does not compile: a defect of Sliceflow, told with the author's file and line.
+    /// A shader does not compile: a defect of Sliceflow, reported with the author's file and line.
     Shader { message: String },
     /// The simulation became non-finite or lost a particle.
     Guard(Box<Casualty>),
@@ -176,7 +176,7 @@ impl fmt::Display for Error {
                 write!(
                     f,
                     "{} at frame {}, step {}, t = {:.6} s: particle {} at ({x:.6}, {y:.6}, {z:.6}) m \
-                     with velocity ({u:.4}, {v:.4}, {w:.4}) m/s; {} such catches until the frame's end\n  \
+                     with velocity ({u:.4}, {v:.4}, {w:.4}) m/s; {} such accidents until the frame ended\n  \
                      likely cause: {}\n  what was written before stays",
                     c.what, c.frame, c.step, c.time, c.id, c.count, c.likely_cause
                 )

@@ -45,7 +45,7 @@ fn a_checkpoint_that_cannot_be_written_is_told_and_stops_nothing() {
     };
     let told = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{told}");
-    assert!(told.contains("no checkpoint behind frame 2"), "{told}");
+    assert!(told.contains("no checkpoint was written after frame 2"), "{told}");
     assert!(place.checkpoints("kept/small").is_empty());
     assert_eq!(
         place.files("kept/small").len(),

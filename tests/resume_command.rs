@@ -139,7 +139,7 @@ fn a_damaged_checkpoint_is_told_and_the_one_before_it_is_used() {
     let told = place.told(&mut place.sliceflow(&["resume", "run"]), 0);
     assert!(told.contains("checkpoint_000024.bin is damaged"), "{told}");
     assert!(told.contains("checkpoint_000020.bin is cut off"), "{told}");
-    assert!(told.contains("behind frame 15"), "{told}");
+    assert!(told.contains("after frame 15"), "{told}");
     assert!(told.contains("removed") && told.contains("made again"), "{told}");
     place.assert_same("whole", "run", "two damaged checkpoints");
 

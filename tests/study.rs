@@ -118,7 +118,7 @@ fn green_has_a_page_with_the_same_figures_as_its_json() {
         .as_array()
         .expect("rates")
         .iter()
-        .filter_map(|row| row["frames a second"].as_f64())
+        .filter_map(|row| row["frames per second"].as_f64())
         .collect();
     assert_eq!(rates[..2], [175.0, 460.0]);
     assert!(

@@ -4,11 +4,11 @@ use crate::output::{Checkpoints, Every};
 
 #[derive(clap::Args, Clone)]
 pub struct CheckpointArgs {
-    /// Distance of checkpoints, for `sliceflow resume`: 10 (frames), 30s, 5min, 1h of wall-clock time; 0 for none
+    /// How often checkpoints are written, for `sliceflow resume`: 10 (frames), 30s, 5min, 1h of wall-clock time; 0 for none
     /// [default: 60s, and when the run ends]
     #[arg(long, value_name = "N|TIME")]
     checkpoint_every: Option<Every>,
-    /// The newest so many checkpoints stay [default: 2]
+    /// How many checkpoints stay, the newest ones [default: 2]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     keep_checkpoints: Option<u32>,
 }

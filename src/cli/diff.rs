@@ -13,7 +13,7 @@ use crate::output::text::count;
 ///
 /// Particles come from the runs' particle files (`--particles`, any format) or checkpoints; statistics and pictures
 /// are compared too. Between formats, positions are compared as exactly as both keep them. Exit status: 0 where
-/// everything that both have is equal, 1 where something differs, 2 on trouble.
+/// everything that both have is equal, 1 where something differs, 2 where the runs cannot be compared.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {

@@ -21,7 +21,7 @@ pub fn help() -> String {
 fn split(name: &str) -> Result<(&str, &str)> {
     name.split_once('-').ok_or_else(|| {
         Error::usage(
-            format!("`{name}` is no grid"),
+            format!("`{name}` is not a grid"),
             "write addressing and storage: --grid uniform-counting, --grid sliced-pool",
         )
     })

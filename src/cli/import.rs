@@ -9,7 +9,7 @@ use crate::output::text::count;
 use crate::output::write_file;
 use crate::scene::import::import;
 
-/// Makes a scene of a SPlisHSPlasH scene file
+/// Makes a scene from a scene file of SPlisHSPlasH
 ///
 /// Reads FluidBlocks, FluidModels, RigidBodies (as obstacles that rest, or as the domain's box), Materials,
 /// gravity, times and camera, and lists every key that has no effect. Fluid becomes a

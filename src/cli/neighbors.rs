@@ -23,9 +23,9 @@ use files::Files;
 
 /// Finds all pairs of points nearer than a radius
 ///
-/// POINTS is a .ply, .csv or .npy file with columns x, y and z, or x and y; other columns are passed over. Any unit will
+/// POINTS is a .ply, .csv or .npy file with columns x, y and z, or x and y; other columns are ignored. Any unit will
 /// do, and any place: the center is subtracted in f64. Two points are neighbors where their distance, in f32, is less
-/// than the radius; no point is its own.
+/// than the radius; no point is its own neighbor.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -71,7 +71,7 @@ Times, milliseconds, each with the host's wait for the device:
   build   the grid over points that are on the device
   counts  numbers of neighbors, brought to the host
   lists   neighbors, where --lists asks for them, brought to the host and sorted
-Before them, build has run once and query on one workgroup, so that pipelines are ready. The whole takes in reading the
+Before them, build has run once and query on one workgroup, so that pipelines are ready. The total includes reading the
 file, opening the device, compiling and writing.
 
 Examples:

@@ -175,7 +175,7 @@ impl fmt::Display for Report<'_> {
         }
         writeln!(
             f,
-            "frames     {} at {} a simulated second, {}{} steps a frame, {} steps in all",
+            "frames     {} at {} per simulated second, {}{} steps per frame, {} steps in all",
             count(time.frames.into()),
             time.fps,
             if adaptive { "about " } else { "" },

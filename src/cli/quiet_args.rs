@@ -4,7 +4,7 @@ use crate::output::progress::Style;
 
 #[derive(clap::Args, Clone, Copy)]
 pub struct QuietArgs {
-    /// Tells warnings and errors alone
+    /// Shows warnings and errors only
     #[arg(short, long)]
     quiet: bool,
 }

@@ -22,7 +22,7 @@ pub struct RerunArgs {
     /// Shows the run to browsers on this machine, until Ctrl-C (needs `rerun`, from `pip install rerun-sdk`)
     #[arg(long, help_heading = HEADING)]
     rerun_serve: bool,
-    /// Bytes of a recording, at most: what does not fit is thinned out, evenly and told
+    /// Most bytes of a recording; where more is there, fewer particles, pictures and frames are recorded, and a note says so
     #[arg(long, value_name = "SIZE", default_value = "500MB", value_parser = size, help_heading = HEADING)]
     rerun_budget: u64,
 }
@@ -59,7 +59,7 @@ fn address(text: &str) -> Result<String, String> {
             Ok(inner.to_owned())
         }
         _ => Err(format!(
-            "write HOST:PORT, as in {VIEWER_HERE}; the scene stands before this flag"
+            "write HOST:PORT, as in {VIEWER_HERE}; give the scene before this flag"
         )),
     }
 }

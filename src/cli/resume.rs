@@ -11,8 +11,8 @@ use crate::output::{self, Recorded};
 
 /// Goes on with a run that was stopped, or starts a variant from one of its frames
 ///
-/// The run goes on behind its newest checkpoint, in its own folder, and comes to the same bytes as if nothing had
-/// happened. A checkpoint that is damaged is told, and the one before it is used; without any, the run begins anew.
+/// The run goes on after its newest checkpoint, in its own folder, and comes to the same bytes as if nothing had
+/// happened. A damaged checkpoint is reported, and the one before it is used; without any, the run begins again.
 /// With --branch-at, a variant starts from that frame in a folder of its own; the state of the frame is simulated again
 /// where no checkpoint has it.
 #[derive(clap::Args)]
@@ -20,7 +20,7 @@ use crate::output::{self, Recorded};
 pub struct Args {
     /// Folder of the run
     run: PathBuf,
-    /// Frames that the run shall have, the first state included [default: as it was started]
+    /// Frames that the run is to have, the first state included [default: as it was started]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     frames: Option<u32>,
     /// Starts a variant from this frame

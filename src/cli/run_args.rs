@@ -28,10 +28,10 @@ pub struct RunArgs {
     /// Makes a video: .mp4 and .webm by the program ffmpeg; .gif and .png (animated), small, by Sliceflow itself
     #[arg(long, value_name = "FILE")]
     video: Option<PathBuf>,
-    /// Draws nothing
+    /// Draws no pictures
     #[arg(long)]
     no_pictures: bool,
-    /// Measures nothing; the warning about overlapping grains needs it
+    /// Writes no statistics; the warning about overlapping grains needs them
     #[arg(long)]
     no_statistics: bool,
     #[command(flatten)]

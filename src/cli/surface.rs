@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::output::surface::{MESH_FORMATS, MeshFormat, Sequence, SurfaceSettings, make_surfaces};
 use crate::output::text::{count, seconds};
 
-/// Turns a run's particles into surfaces, a mesh a frame
+/// Turns a run's particles into surfaces, one mesh per frame
 ///
 /// Reads the particle files that `sliceflow run --particles` has written, and writes surface_000000.ply … beside them.
 /// Made with splashsurf (Löschner et al. 2023); lengths are in particle radii.

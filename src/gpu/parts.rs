@@ -85,7 +85,7 @@ pub enum Items {
     AwayParticles,
     /// One per particle, when the last move returned them and they are searched anew.
     ReturnedParticles,
-    /// One a particle, as long as the loop of this number goes on.
+    /// One per particle, as long as the loop of this number goes on.
     Loop(u32),
     /// A number known beforehand, come what may.
     Fixed(u32),

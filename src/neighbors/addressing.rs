@@ -58,7 +58,7 @@ pub const ADDRESSINGS: &[AddressingRow] = &[
     AddressingRow {
         kind: Addressing::Bitmap,
         name: "bitmap",
-        source: "ours: one bit a voxel, memory for those that hold particles",
+        source: "ours: one bit per voxel, memory for those that hold particles",
         query: "cells/bitmap",
         room: RoomRule::Followed(|_, voxels| room::of_bitmap(voxels)),
         plan: bitmap,

@@ -32,7 +32,7 @@ pub fn record(scene: &Scene, grid: &Grid) -> Option<(&'static str, u64)> {
     }
 }
 
-/// Boxes around the voxels in memory: one a slice, or the whole domain. Rows are too many for boxes, so addressings
+/// Boxes around the voxels in memory: one per slice, or the whole domain. Rows are too many for boxes, so addressings
 /// that keep rows have none. `record` holds the bytes of the buffer that [`record`] names.
 pub fn boxes(scene: &Scene, grid: &Grid, record: &[u8]) -> Vec<VoxelBox> {
     let [width, slices, depth, _] = grid.size;

@@ -159,7 +159,7 @@ fn pool(search: &mut Search, _: u32, neighbors: &Neighbors) {
             "index_pool",
             voxels * u64::from(slots),
             4,
-            format!("{slots} particle indices a voxel"),
+            format!("{slots} particle indices per voxel"),
         ),
         BufferPlan::storage("overflow", 2, 4, "particles that found no slot"),
     ]);

@@ -326,7 +326,7 @@ impl Run<'_> {
         let written = self.keeper.write(simulation.save_state()?, self.about.clone());
         if let Err(error) = written.and_then(|()| self.manifest.update(self.tally)) {
             self.progress.warn(&format!(
-                "no checkpoint behind frame {frame}, the run goes on: {error}"
+                "no checkpoint was written after frame {frame}, and the run goes on: {error}"
             ));
         }
         Ok(())
@@ -371,7 +371,7 @@ impl Run<'_> {
         let places: Vec<_> = self.sinks.iter().filter_map(|sink| sink.serving()).collect();
         if !places.is_empty() {
             self.progress
-                .note(&format!("still there until Ctrl-C: {}", places.join(", ")));
+                .note(&format!("serving until Ctrl-C: {}", places.join(", ")));
             interrupt::wait();
         }
     }
@@ -391,8 +391,10 @@ impl Run<'_> {
                 .iter()
                 .map(|(label, ms)| format!("{label} {:.3}", ms / frames))
                 .collect();
-            self.progress
-                .note(&format!("milliseconds a frame: {}", times.join(", ")));
+            self.progress.note(&format!(
+                "milliseconds of a step's passes, and of a frame's own: {}",
+                times.join(", ")
+            ));
         }
         let frames = self.tally.frames_done;
         let end = if outcome.is_ok() {

@@ -26,7 +26,7 @@ impl Health {
         let mut warnings = Vec::new();
         if frame.overflow > 0 && self.overflow == 0 {
             warnings.push(format!(
-                "frame {}: {} times a grain found its voxel full, so contacts are missed; give voxels more room with \
+                "frame {}: particles found their voxel full {} times, so contacts are missed; give voxels more room with \
                  --set neighbors.slots=8, or use --grid sliced-counting",
                 frame.index,
                 count(frame.overflow)
@@ -36,8 +36,8 @@ impl Health {
         if frame.quarantined > 0 && !self.quarantine_told {
             self.quarantine_told = true;
             warnings.push(format!(
-                "frame {}: {} particles are farther from the domain than the neighbor search follows, so they meet \
-                 nobody; to follow them, set neighbors.quarantine_distance higher",
+                "frame {}: {} particles are farther from the domain than the neighbor search follows, so they find \
+                 no neighbors; to follow them, set neighbors.quarantine_distance higher",
                 frame.index,
                 count(frame.quarantined.into())
             ));
@@ -63,7 +63,7 @@ impl Health {
     pub fn summary(&self) -> Option<String> {
         (self.overflow > 0).then(|| {
             format!(
-                "during the run, {} times a grain found its voxel full",
+                "during the run, particles found their voxel full {} times",
                 count(self.overflow)
             )
         })
@@ -73,8 +73,8 @@ impl Health {
     pub fn note(&self) -> Option<String> {
         (self.growths > 0).then(|| {
             format!(
-                "the grid's buffers were made larger {} times, and the steps concerned done again; \
-                 a higher neighbors.margin spares that",
+                "the grid's buffers were made larger {} times, and the steps concerned were made again; \
+                 a higher neighbors.margin avoids that",
                 self.growths
             )
         })

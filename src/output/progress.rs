@@ -19,7 +19,7 @@ pub enum Style {
     Bar,
     /// Lines for people and logs.
     Plain,
-    /// One JSON object a line, for programs.
+    /// One JSON object per line, for programs.
     Json,
     /// Warnings and errors alone.
     None,

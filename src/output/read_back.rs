@@ -32,7 +32,7 @@ pub struct Snapshot {
 /// One column of a frame.
 pub struct Column {
     pub name: String,
-    /// Numbers a particle: 3 of a vector (z is 0 in 2D), otherwise 1.
+    /// Numbers per particle: 3 of a vector (z is 0 in 2D), otherwise 1.
     pub width: usize,
     /// In order of id.
     pub values: Vec<f64>,

@@ -50,7 +50,7 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
     let start = match newest {
         Some(checkpoint) => {
             progress.note(&format!(
-                "going on behind frame {} of {frames}",
+                "going on after frame {} of {frames}",
                 checkpoint.state.frame
             ));
             scene.capacity = checkpoint.state.capacity(&scene);

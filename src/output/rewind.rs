@@ -45,7 +45,7 @@ impl Folder {
         cut_statistics(&self.statistics(), last)?;
         Ok((removed > 0).then(|| match last {
             Some(last) => format!(
-                "removed {} files of frames behind frame {last}, which are made again",
+                "removed {} files of frames after frame {last}, which are made again",
                 count(removed)
             ),
             None => format!("removed {} files of frames, which are made again", count(removed)),

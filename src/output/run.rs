@@ -60,7 +60,7 @@ impl Outputs {
         }];
         if self.pictures {
             let about = format!(
-                "picture of a frame, {width}×{height}, {} frames a simulated second",
+                "picture of a frame, {width}×{height}, {} frames per simulated second",
                 scene.time.fps
             );
             files.push(Files {
@@ -69,7 +69,7 @@ impl Outputs {
             });
         }
         if self.statistics {
-            let about = "one JSON object a frame; units are in its keys".into();
+            let about = "one JSON object per frame; units are in its keys".into();
             files.push(Files {
                 name: "stats.jsonl".into(),
                 about,
@@ -81,7 +81,7 @@ impl Outputs {
         if self.checkpoints.every != Every::Never {
             files.push(Files {
                 name: "checkpoint_NNNNNN.bin".into(),
-                about: "state behind a frame, for `sliceflow resume`".into(),
+                about: "state after a frame, for `sliceflow resume`".into(),
             });
         }
         files.extend(self.video.as_ref().map(VideoOutput::files));
@@ -126,7 +126,7 @@ pub struct Settings {
     /// Whether an earlier run in the folder may be replaced.
     pub force: bool,
     pub outputs: Outputs,
-    /// Milliseconds a pass, in the statistics and at the end.
+    /// Milliseconds of each pass, in the statistics and at the end.
     pub timings: bool,
     pub adapter: AdapterChoice,
     pub progress: progress::Style,

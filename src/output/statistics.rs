@@ -1,4 +1,4 @@
-//! `stats.jsonl`: one JSON object a frame, on one line.
+//! `stats.jsonl`: one JSON object per frame, on one line.
 
 use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Write as _};

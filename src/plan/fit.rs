@@ -68,7 +68,7 @@ impl Plan {
         {
             return Err(Error::Limit {
                 what: format!(
-                    "texture `{}` needs {}×{} pixels; this adapter has at most {} a side",
+                    "texture `{}` needs {}×{} pixels; this adapter has at most {} per side",
                     texture.name, texture.size[0], texture.size[1], limits.texture
                 ),
                 help: "choose a smaller --size or a lower render.antialias".into(),

@@ -33,7 +33,7 @@ pub struct Wanted {
     pub columns_every: u32,
     /// Pictures, and of what.
     pub view: Option<View>,
-    /// Where voxels are and how full, as boxes and as a square picture with so many texels a side.
+    /// Where voxels are and how full, as boxes and as a square picture with so many texels per side.
     pub voxel_map: Option<u32>,
 }
 

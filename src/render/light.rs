@@ -13,7 +13,7 @@ pub struct Light {
     pub toward: DVec3,
     /// World to the shadow map's clip space.
     pub projection: Mat4,
-    /// Metres a texel.
+    /// Metres per texel.
     pub texel: f64,
 }
 

@@ -76,7 +76,7 @@ impl Renderer {
                 let map = color_maps::find(&scene.color.map).ok_or_else(|| {
                     Error::usage(
                         format!("there is no color map `{}`", scene.color.map),
-                        "see `sliceflow scenes --columns`",
+                        "see `sliceflow scenes --color-maps`",
                     )
                 })?;
                 let entries: Vec<u32> = (0..256)

@@ -91,7 +91,7 @@ pub fn needs(scene: &Scene, view: View) -> Needs {
             "paint_pool",
             None,
             "render/pool",
-            "the index pool, one texel a voxel",
+            "the index pool, one texel per voxel",
         );
     }
     needs
@@ -132,7 +132,7 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         );
     }
     let samples = size.map(|side| side * scene.render.antialias);
-    needs.texture("scene_color", samples, "the scene, several samples a pixel");
+    needs.texture("scene_color", samples, "the scene, several samples per pixel");
     needs.texture("scene_depth", samples, "what is in front");
     if style.shadows {
         needs.texture("shadow_map", [SHADOW_TEXELS; 2], "depth from the light");

@@ -101,7 +101,7 @@ impl ColorBar {
         let map = color_maps::find(&color.map).ok_or_else(|| {
             Error::usage(
                 format!("there is no color map `{}`", color.map),
-                "see `sliceflow scenes --columns`",
+                "see `sliceflow scenes --color-maps`",
             )
         })?;
         let [low, high] = color.range;

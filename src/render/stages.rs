@@ -12,7 +12,7 @@ use crate::scene::Scene;
 /// The color target: sRGB bytes, so that blending and averaging happen in linear light.
 const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 
-/// A draw with its vertices an instance and its instances; `None` is one a particle.
+/// A draw with its vertices an instance and its instances; `None` is one per particle.
 type Placed = (Draw, u32, Option<u32>);
 
 pub struct Stages {

@@ -12,7 +12,7 @@ use super::fluid;
 use super::frame::{Frame, Report};
 use super::mesh::Mesh;
 use super::model::{self, Arrangement, Body, SceneFile, Shape};
-use super::obstacles::{self, FILE_MEND, check_corners, transform};
+use super::obstacles::{self, FILE_HELP, check_corners, transform};
 use super::shapes::{self, Region};
 use super::text::number;
 use super::{Collider, Dimensions, Particles, particle_file};
@@ -147,7 +147,7 @@ fn grains(
         if body.spacing.is_some() || body.jitter != 0.0 || body.arrangement != Arrangement::default() {
             report.problem(
                 &path,
-                "a particle file says itself where particles are",
+                "a particle file already says where particles are",
                 "remove `arrangement`, `spacing` and `jitter`",
             );
         }
@@ -302,7 +302,7 @@ fn from_file(
     let loaded = match particle_file::load(&folder.join(file), frame.dimensions) {
         Ok(loaded) => loaded,
         Err(reason) => {
-            report.problem(format!("{path}.file"), reason, FILE_MEND);
+            report.problem(format!("{path}.file"), reason, FILE_HELP);
             return None;
         }
     };

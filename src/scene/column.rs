@@ -1,6 +1,6 @@
 //! Columns: values that every particle has and that can be drawn, written or logged. Registered once, in [`COLUMNS`].
 
-/// One value a particle.
+/// One value per particle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Column {
     /// Name in scene files, on the command line and of the shader file `render/columns/NAME.wgsl`.
@@ -94,7 +94,7 @@ pub const COLUMNS: &[Column] = &[
     ),
 ];
 
-/// Vectors, which particle files keep whole: one row a particle.
+/// Vectors, which particle files keep whole: one row per particle.
 pub const VECTORS: &[Column] = &[
     column(
         "position",

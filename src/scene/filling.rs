@@ -62,7 +62,7 @@ pub fn fit_spacing(file: &mut SceneFile, report: &mut Report) -> Vec<Option<Fill
         let held = filled.number() * spacing.powi(file.dimensions as i32) / filled.volume();
         if (held - 1.0).abs() > TOLD {
             report.notes.push(format!(
-                "bodies[{}]: its sides are no whole numbers of spacings, and its particles hold {:.1} % {} than the box; sides \
+                "bodies[{}]: its sides are not whole numbers of spacings, and its particles hold {:.1} % {} than the box; sides \
                  of whole spacings ({} m) hold just as much",
                 filled.body,
                 100.0 * (held - 1.0).abs(),

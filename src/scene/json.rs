@@ -121,7 +121,7 @@ fn explain(text: &str, error: &serde_json::Error) -> Problem {
 }
 
 fn help_for(what: &str) -> &'static str {
-    const MENDS: &[(&str, &str)] = &[
+    const HELP: &[(&str, &str)] = &[
         ("twice", "keep one of them"),
         ("trailing comma", "remove the comma before the closing bracket"),
         (
@@ -135,7 +135,7 @@ fn help_for(what: &str) -> &'static str {
         ("invalid number", "write numbers as 1, -0.5 or 2.5e-3"),
         ("control character", "write a line break inside text as \\n"),
     ];
-    MENDS.iter().find(|(part, _)| what.contains(part)).map_or(
+    HELP.iter().find(|(part, _)| what.contains(part)).map_or(
         "give a number, \"text\", true, false, [list] or {object}",
         |(_, help)| help,
     )

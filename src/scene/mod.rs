@@ -219,7 +219,7 @@ pub struct Contact {
     pub global_damping: f64,
 }
 
-/// Positions (local, metres) and velocities (m/s) of particles, one entry a particle.
+/// Positions (local, metres) and velocities (m/s) of particles, one entry per particle.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Particles {
     pub position: Vec<Vec3>,

@@ -164,7 +164,7 @@ pub fn mesh(
     let mesh = match Mesh::load(&folder.join(file)) {
         Ok(mesh) => mesh,
         Err(reason) => {
-            report.problem(format!("{path}.file"), reason, FILE_MEND);
+            report.problem(format!("{path}.file"), reason, FILE_HELP);
             return None;
         }
     };
@@ -181,7 +181,7 @@ pub fn mesh(
     Some(mesh.placed(scale, rotate, translate))
 }
 
-pub const FILE_MEND: &str = "check the path, which is relative to the scene file, and the file itself";
+pub const FILE_HELP: &str = "check the path, which is relative to the scene file, and the file itself";
 
 /// Factors along the axes, degrees about them, and the move in local coordinates, metres.
 pub fn transform(

@@ -26,7 +26,7 @@ pub struct Loaded {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attribute {
     pub name: String,
-    /// Numbers a particle: 3 of `position` and `velocity`, 1 of all others.
+    /// Numbers per particle: 3 of `position` and `velocity`, 1 of all others.
     pub width: usize,
     /// In order of the rows.
     pub values: Vec<f64>,
@@ -143,7 +143,7 @@ pub(super) fn columns_of(attribute: &str, components: usize) -> Vec<String> {
     }
 }
 
-/// A column's name, and one number a row.
+/// A column's name, and one number per row.
 pub(super) type NamedColumn = (String, Vec<f64>);
 
 /// A particle file of any format, read but not yet checked.

@@ -324,7 +324,7 @@ fn render(file: &SceneFile, frame: &Frame, report: &mut Report) -> Render {
         report.problem(
             "render.size",
             format!("{width} × {height} pixels"),
-            format!("give {SMALLEST_FRAME} to {LARGEST_FRAME} pixels a side"),
+            format!("give {SMALLEST_FRAME} to {LARGEST_FRAME} pixels per side"),
         );
     }
     if render.show.slices && file.neighbors.addressing != Addressing::Sliced {

@@ -65,7 +65,7 @@ pub struct AdaptiveSteps {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Voxels {
     pub boxes: Vec<VoxelBox>,
-    /// Particles a voxel in the order of memory, folded into a square; rows from the top, the fullest of a block where
+    /// Particles per voxel in the order of memory, folded into a square; rows from the top, the fullest of a block where
     /// there are more voxels than texels. `None` where there is no voxel.
     pub map: Vec<Option<u32>>,
 }
@@ -98,7 +98,7 @@ pub struct Statistics {
 }
 
 impl AdaptiveSteps {
-    /// Seconds, with so many frames a second.
+    /// Seconds, with so many frames per second.
     pub(super) fn mean_s(&self, fps: f64) -> f64 {
         let steps: u32 = self.limited_by.iter().map(|(_, steps)| steps).sum();
         1.0 / (fps * f64::from(steps))
@@ -171,12 +171,12 @@ pub struct ColumnData {
 pub enum Values {
     Float(Vec<f32>),
     Unsigned(Vec<u32>),
-    /// So many numbers a particle.
+    /// So many numbers per particle.
     Vector {
         columns: usize,
         values: Vec<f32>,
     },
-    /// So many numbers a particle; positions, which stay exact far from zero.
+    /// So many numbers per particle; positions, which stay exact far from zero.
     Double {
         columns: usize,
         values: Vec<f64>,

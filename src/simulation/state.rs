@@ -16,7 +16,7 @@ use crate::physics::layout::{Clock, Overflow, PACKED_BYTES, Pace, Packed, packed
 use crate::scene::model::Axis;
 use crate::scene::{Action, Dimensions, Scene};
 
-/// Buffers with one value a particle, and where the search takes them from.
+/// Buffers with one value per particle, and where the search takes them from.
 const PARTICLE_BUFFERS: [(&str, &str); 6] = [
     ("position", "next_position"),
     ("velocity", "next_velocity"),

@@ -22,7 +22,7 @@ pub enum Addressing {
 /// How voxels keep particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Storage {
-    /// So many indices a voxel.
+    /// So many indices per voxel.
     Pool(u32),
     Counting,
 }

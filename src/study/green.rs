@@ -246,15 +246,15 @@ fn deterministic(page: &mut Page, bench: &Bench, scale: &Scale, bed: &Scene) -> 
 }
 
 fn rate(page: &mut Page, bench: &Bench, scale: &Scale, bed: &Scene) -> Result<()> {
-    page.heading("Frames a second");
+    page.heading("Frames per second");
     page.paragraph(
         "A frame of Green's sample is one step and one picture. Ours are 640 × 480 pixels, smoothed, with shadows, and \
          their pixels are brought back to the host; he draws point sprites into a window.",
     );
-    bench.tell("green: frames a second");
+    bench.tell("green: frames per second");
     let [(_, sorted), _] = orders(bed);
     let bed = scenes::replaced(bed, sorted);
-    let mut table = Table::new(["machine", "grid", "grains", "frames a second", "source"]);
+    let mut table = Table::new(["machine", "grid", "grains", "frames per second", "source"]);
     for (machine, rate) in PAPER {
         table.row([
             Cell::text(machine),

@@ -216,7 +216,7 @@ impl Measured {
         Ok(())
     }
 
-    /// Steps one by one; the turn's time a step is kept.
+    /// Steps one by one; the turn's time of a step is kept.
     fn turn(&mut self, steps: u32, exactly: bool, growths: &mut u32) -> Result<()> {
         let start = Instant::now();
         for _ in 0..steps {

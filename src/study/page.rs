@@ -143,7 +143,7 @@ impl Table {
         text
     }
 
-    /// A list of objects, one a row.
+    /// A list of objects, one per row.
     fn json(&self) -> Value {
         let object = |row: &Vec<Cell>| -> Value {
             let cells = row.iter().map(Cell::json);

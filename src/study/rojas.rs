@@ -160,7 +160,7 @@ fn ratios(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
         "real-time ratio",
         "lowest",
         "highest",
-        "million particle updates a second",
+        "million particle updates per second",
         "remark",
     ]);
     let mut chart = Plot::new(
@@ -171,7 +171,7 @@ fn ratios(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
     .log_x()
     .log_y()
     .mark_y(1.0, "real time");
-    let mut rates = Plot::new("Speed", "particles", "million particle updates a second").log_x();
+    let mut rates = Plot::new("Speed", "particles", "million particle updates per second").log_x();
     for way in &WAYS {
         let mut points = Vec::new();
         let mut speeds = Vec::new();
@@ -215,7 +215,7 @@ fn ratios(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
         "The step follows the speed of sound and the spacing, so four times the particles take about eight times as long \
          where the device is busy. Boundary particles are searched like the others and count for none in the figures.",
     );
-    page.picture("rojas_speed.png", "Particle updates a second.", |path| {
+    page.picture("rojas_speed.png", "Particle updates per second.", |path| {
         rates.save(path)
     })
 }

@@ -27,7 +27,7 @@ pub struct Measured {
     pub slices: Option<BTreeMap<i32, u64>>,
     /// Of a search on the device, where the grid fits it.
     pub device: Option<Statistics>,
-    /// The grid's memory, one texel a voxel (Harada 2007, Figure 7).
+    /// The grid's memory, one texel per voxel (Harada 2007, Figure 7).
     pub heatmap: Option<RgbaImage>,
     /// The allocated boxes around the particles (Harada 2007, Figure 2).
     pub boxes: Option<RgbaImage>,

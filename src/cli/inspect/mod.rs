@@ -28,7 +28,7 @@ use subject::Subject;
 ///
 /// Simulates once, through the scene's own grid, then searches the same state through each --grid. Bytes are those of
 /// the buffers that a search needs for so many voxels, beside the whole domain's (`uniform`), an octree's whose leaves
-/// are voxels, and a hash table's with two buckets a particle.
+/// are voxels, and a hash table's with two buckets per particle.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {

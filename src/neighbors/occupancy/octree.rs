@@ -3,7 +3,7 @@
 use super::{Allocation, Census};
 use crate::scene::{Dimensions, Neighbors};
 
-/// An octree (in 2D a quadtree) over the smallest cube of 2^levels voxels a side that begins at the lower corner of the
+/// An octree (in 2D a quadtree) over the smallest cube of 2^levels voxels per side that begins at the lower corner of the
 /// domain and of the occupied voxels and holds them all. Leaves are voxels, all on the last level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Octree {

@@ -30,7 +30,7 @@ pub struct Cloud<'a> {
     pub attributes: Vec<(&'static str, Attribute<'a>)>,
 }
 
-/// One value a point.
+/// One value per point.
 pub enum Attribute<'a> {
     Float(&'a [f32]),
     Unsigned(&'a [u32]),

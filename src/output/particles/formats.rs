@@ -61,7 +61,7 @@ pub const FORMATS: &[Format] = &[
     },
     Format {
         name: "npy",
-        about: "a folder a frame, a NumPy array a column",
+        about: "a folder per frame, a NumPy array per column",
         file: "particles_NNNNNN/COLUMN.npy",
         is_points: false,
         is_single_precision: false,

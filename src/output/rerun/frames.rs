@@ -95,7 +95,7 @@ impl Frames {
         Ok(())
     }
 
-    /// Logs a frame; `rate` is how many particle steps a second the run has made so far.
+    /// Logs a frame; `rate` is how many particle steps per second the run has made so far.
     pub fn log(&mut self, stream: &RecordingStream, frame: &Frame, rate: Option<f64>) -> Result<()> {
         self.time = frame.time;
         let logged = self.figures(stream, frame, rate);

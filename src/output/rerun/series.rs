@@ -168,7 +168,7 @@ pub fn groups(is_fluid: bool, statistics: bool) -> impl Iterator<Item = &'static
 
 /// Key of what a run measures itself, in the place of a figure of `stats.jsonl`.
 pub const PARTICLE_STEPS_PER_S: &str = "particle_steps_per_s";
-/// The group that has one curve a pass.
+/// The group that has one curve per pass.
 pub const PASSES: &str = "passes";
 /// The group that has one curve a term that limits adaptive steps.
 pub const STEP_LIMITS: &str = "step_limits";

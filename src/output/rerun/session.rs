@@ -23,7 +23,7 @@ const LAST_FRAMES: Duration = Duration::from_secs(30);
 
 struct Job {
     frame: Arc<Frame>,
-    /// Particle steps a second since the run began; none at its start.
+    /// Particle steps per second since the run began; none at its start.
     rate: Option<f64>,
 }
 

@@ -54,7 +54,7 @@ pub struct Kind {
     start: fn(&Start) -> Result<Box<dyn Encoder>>,
     /// Whether only some frames, smaller, are kept.
     is_small: bool,
-    /// Bytes on disk a pixel of every frame, a guess.
+    /// Bytes on disk per pixel of every frame, a guess.
     bytes_per_pixel: f64,
 }
 
@@ -111,7 +111,7 @@ impl VideoOutput {
         let Some(kind) = kind else {
             let endings: Vec<_> = KINDS.iter().map(|kind| format!(".{}", kind.extension)).collect();
             return Err(Error::usage(
-                format!("{} is no name of a video", path.display()),
+                format!("{} is not the name of a video", path.display()),
                 format!("end it with one of {}", endings.join(", ")),
             ));
         };
@@ -156,7 +156,7 @@ impl VideoOutput {
         let rate = rate(scene.time.fps);
         if rate != scene.time.fps {
             parts.push(format!(
-                "plays {rate} frames a second, {:.3} times as fast as the scene",
+                "plays {rate} frames per second, {:.3} times as fast as the scene",
                 rate / scene.time.fps
             ));
         }

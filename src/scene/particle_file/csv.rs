@@ -19,7 +19,7 @@ pub fn read(path: &Path) -> Result<Table, String> {
 
     let Some(&(number, first)) = lines.peek() else {
         return Err(format!(
-            "{name}: the file is empty; write a header `x,y,z` and one line a particle"
+            "{name}: the file is empty; write a header `x,y,z` and one line per particle"
         ));
     };
     let cells: Vec<&str> = first.split(',').map(str::trim).collect();

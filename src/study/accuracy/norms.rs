@@ -54,7 +54,7 @@ pub fn relative_l1(pairs: impl IntoIterator<Item = (f64, f64)>) -> f64 {
     off / scale
 }
 
-/// Order p of error ∝ resolution⁻ᵖ (particles across, steps a contact), by least squares of logarithms over all
+/// Order p of error ∝ resolution⁻ᵖ (particles across, steps per contact), by least squares of logarithms over all
 /// points; none for fewer than two errors above zero.
 pub fn order(points: &[(f64, f64)]) -> Option<f64> {
     let logs: Vec<(f64, f64)> = points

@@ -15,7 +15,7 @@ pub struct Point {
     pub resolution: u32,
     /// In the unit of the case's figure.
     pub error: f64,
-    /// Wall seconds a simulated second, where they are known.
+    /// Wall seconds per simulated second, where they are known.
     pub wall_per_simulated: Option<f64>,
 }
 

@@ -143,7 +143,7 @@ pub struct Record {
     /// Name of the case.
     pub case: String,
     pub method: Method,
-    /// As the case counts it: particles across, steps a contact.
+    /// As the case counts it: particles across, steps per contact.
     pub resolution: u32,
     pub particles: u32,
     /// Distance of particles at the start, m; a grain's diameter.
@@ -184,7 +184,7 @@ impl Record {
         self.wall / self.simulated
     }
 
-    /// Particle updates a simulated second, 1/s: what a machine's speed does not change.
+    /// Particle updates per simulated second, 1/s: what a machine's speed does not change.
     pub fn updates_per_simulated(&self) -> f64 {
         self.particle_updates as f64 / self.simulated
     }

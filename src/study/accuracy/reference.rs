@@ -16,7 +16,7 @@ pub struct Table {
     /// What stands behind `#` in the file's first lines, a line each: source, set-up, units.
     pub remarks: Vec<String>,
     heads: Vec<String>,
-    /// One list a column.
+    /// One list per column.
     columns: Vec<Vec<f64>>,
 }
 
@@ -32,7 +32,7 @@ impl Table {
         }
     }
 
-    /// Comments behind `#`, one line of names, then as many numbers a line.
+    /// Comments behind `#`, one line of names, then as many numbers per line.
     pub fn parse(file: &str, text: &str) -> Result<Self> {
         let mut table = Self {
             file: file.to_owned(),

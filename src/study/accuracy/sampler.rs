@@ -124,7 +124,7 @@ impl<'a> Sampler<'a> {
         least_squares::parabola(samples, self.dimensions)
     }
 
-    /// What a sensor in a wall shows of one value a particle: its mean over the kernel's part inside the box, of which
+    /// What a sensor in a wall shows of one value per particle: its mean over the kernel's part inside the box, of which
     /// air counts as zero. `full` is the [`share`] of the same place.
     pub fn on_wall(&self, at: DVec3, value: &[f64], full: f64) -> f64 {
         let weights = self.weights(at);

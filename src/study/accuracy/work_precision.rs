@@ -12,9 +12,9 @@ const ABOVE: f64 = 2.0;
 /// What stands on the x axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Against {
-    /// Wall seconds a simulated second, on the adapter that the title names.
+    /// Wall seconds per simulated second, on the adapter that the title names.
     Time,
-    /// Particle updates a simulated second, which do not depend on the machine.
+    /// Particle updates per simulated second, which do not depend on the machine.
     Updates,
     /// The legend names each curve's order of convergence.
     Resolution,
@@ -48,11 +48,11 @@ pub fn diagram(case: &Case, records: &[Record], against: Against) -> Option<Plot
     let (title, x_label) = match against {
         Against::Time => (
             format!("{}: error against time on {}", case.title, short(adapter)),
-            "wall seconds a simulated second".to_owned(),
+            "wall seconds per simulated second".to_owned(),
         ),
         Against::Updates => (
             format!("{}: error against work", case.title),
-            "particle updates a simulated second".to_owned(),
+            "particle updates per simulated second".to_owned(),
         ),
         Against::Resolution => (
             format!("{}: error against resolution", case.title),

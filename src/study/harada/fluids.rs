@@ -67,7 +67,7 @@ pub fn table_3(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
     page.paragraph(format!(
         "Dams of `sph` (Müller 2003, as in the paper) in a cube of {0}³ voxels{1}, stepped on after {2} steps. \
          The walls are planes, which need no particles. Voxels are half a support wide, {VOXEL} spacings, and pools have \
-         {SLOTS} indices a voxel, as many as particles at rest can need there; the paper has four. A particle looks at \
+         {SLOTS} indices per voxel, as many as particles at rest can need there; the paper has four. A particle looks at \
          125 voxels then. The default grid has neighbor lists.",
         scale.tank,
         match scale.tank {

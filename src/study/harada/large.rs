@@ -72,13 +72,13 @@ fn memory(page: &mut Page, scene: &Scene) {
         "{} grains lie in hills on the floor of {x} × {z} × {y} voxels, counted on the host from the particles. \
          The paper, with about four million particles in \
          700 × 700 × 256 voxels: about 2 GB for a uniform grid, which it could not run, and about \
-         150 MB for the sliced one, at four indices of four bytes a voxel; it does not tell how its particles lay.",
+         150 MB for the sliced one, at four indices of four bytes per voxel; it does not say how its particles lay.",
         count(position.len() as u64),
     ));
     let mut table = Table::new([
         "addressing",
         "voxels",
-        "four indices a voxel",
+        "four indices per voxel",
         "paper",
         "`counting`, all buffers",
     ]);

@@ -56,7 +56,7 @@ pub fn figure_2(page: &mut Page, bench: &Bench, drop: &Drop) -> Result<()> {
 pub fn figure_7(page: &mut Page, bench: &Bench, drops: &[Rc<Drop>]) -> Result<()> {
     page.heading("Figure 7: the index pool");
     page.paragraph(
-        "Two scenes, each beside its pool, one texel a voxel in the order of memory. Black voxels are empty; red, yellow \
+        "Two scenes, each beside its pool, one texel per voxel in the order of memory. Black voxels are empty; red, yellow \
          and white ones hold one, two and three grains, as in the paper; other colors are ours. The paper's scenes are \
          fluids; ours are the largest block, whose pool is nearly full, and one that has spread, with a surface \
          that leaves voxels empty.",

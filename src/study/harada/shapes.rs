@@ -39,7 +39,7 @@ pub fn shapes(page: &mut Page, bench: &Bench, scale: &Scale, splash: &Drop) -> R
         "The cube of {0}³ voxels with: a grain in every voxel; the second drop when its sliced grid is widest; two balls in \
          opposite corners; a sheet one voxel thick, tilted against all axes; and a line from corner to corner. Bytes are \
          those of the search's buffers, as large as the state needs them. A query is what a step does besides \
-         construction. Grids with a pool keep four particles a voxel and may overflow; with `+lists`, bytes include the \
+         construction. Grids with a pool keep four particles per voxel and may overflow; with `+lists`, bytes include the \
          lists.",
         scale.cells
     ));

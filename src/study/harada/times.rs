@@ -65,7 +65,7 @@ pub fn table_2(page: &mut Page, drops: &[Rc<Drop>], times: &AllTimes) -> Result<
     page.heading("Table 2: construction and whole steps of grains");
     page.paragraph(
         "Each drop's state when its sliced grid is widest, stepped on with every grid. In the paper both grids are \
-         pools of four indices a voxel: our `uniform-pool` and `sliced-pool`.",
+         pools of four indices per voxel: our `uniform-pool` and `sliced-pool`.",
     );
     let mut table = Table::new([
         "grains, paper",

@@ -23,7 +23,7 @@ pub const CASE: Case = Case {
     about: "Two grains meet head-on, and the contact ends at zero overlap, where the closed form of a damped oscillator \
             gives back e times the speed. Sixteen pairs touch at sixteen different parts of a step; e is 0.1, 0.3, 0.5, \
             0.7, 0.9 and 1. The figure is the largest difference from e of all.",
-    resolution: "steps a contact",
+    resolution: "steps per contact",
     label: |steps| steps.to_string(),
     resolutions: |size| match size {
         Size::Tiny => &[20, 50],
@@ -35,7 +35,7 @@ pub const CASE: Case = Case {
 };
 
 const FIGURE: &str = "worst error of e";
-/// The bar is set for this many steps a contact.
+/// The bar is set for this many steps per contact.
 const JUDGED: u32 = 50;
 const BAR: f64 = 1e-3;
 const RESTITUTIONS: [f64; 6] = [0.1, 0.3, 0.5, 0.7, 0.9, 1.0];

@@ -20,7 +20,7 @@ pub fn vectors(frame: &Frame, name: &str) -> Vec<DVec3> {
     }
 }
 
-/// One number a particle. Empty where the frame has no such column.
+/// One number per particle. Empty where the frame has no such column.
 pub fn scalars(frame: &Frame, name: &str) -> Vec<f64> {
     let column = frame.columns.iter().find(|column| column.name == name);
     match column.map(|column| &column.values) {

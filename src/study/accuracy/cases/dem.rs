@@ -26,7 +26,7 @@ pub fn frequency(scene: &Scene) -> f64 {
     (grains.contact.spring / (grains.mass / 2.0)).sqrt()
 }
 
-/// The scene with this time step (s) and so many steps a frame.
+/// The scene with this time step (s) and so many steps per frame.
 pub fn with_steps(mut scene: Scene, step: f64, a_frame: u32, frames: u32) -> Scene {
     scene.time.step = step;
     scene.time.steps_per_frame = a_frame;

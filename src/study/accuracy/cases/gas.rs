@@ -25,7 +25,7 @@ pub const CASE: Case = Case {
             collided. Energy of motion and of all springs is summed on the host in f64. The figure is the drift from \
             the start to the mean of the last tenth, over the energy at the start: root of the mean square of several \
             such gases.",
-    resolution: "steps a contact",
+    resolution: "steps per contact",
     label: |steps| steps.to_string(),
     resolutions: |size| match size {
         Size::Tiny => &[20, 50],

@@ -19,7 +19,7 @@ pub const CASE: Case = Case {
     about: "A square column, a = 2.25 in, collapses over a dry floor (scene `martin_moyce`; Martin and Moyce 1952, \
             n² = 1). The front Z = x/a is where the farthest particle ends; its figure is the root of the mean square \
             of ΔZ/Z over the measured points, with the best shift of time of at most 0.2 T, since the origin of the \
-            measured times is uncertain by some 0.15 T. How much that alone makes is told too: the error of the \
+            measured times is uncertain by some 0.15 T. How much that alone makes is given too: the error of the \
             measured curve beside itself, 0.15 T later. Heights at the back wall likewise, without a shift.",
     resolution: "particles high",
     label: |n| n.to_string(),

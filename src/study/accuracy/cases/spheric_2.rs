@@ -19,7 +19,7 @@ pub const CASE: Case = Case {
     about: "Water 0.55 m high runs onto a box in a tank of 3.22 m (scene `spheric_2`; Kleefsman 2005, SPHERIC test 2). \
             Heights are depths of water at the four gauges (volume over area, which is what wires feel that measure how \
             much of them is wet, also in the splash behind the box), compared over the run; those of the highest wet \
-            point are told too. Arrival is told at the lowest pressure sensor on the box, which also gives the peak, and \
+            point are given too. Arrival is measured at the lowest pressure sensor on the box, which also gives the peak, and \
             at the two gauges that the front passes on its way: the measured one is far ahead at the first already, so \
             that its clock seems to start after the water does. The time from H2 to the box needs no clock. 30 particles \
             over the height are the benchmark's own spacing, 0.0183 m. Small studies end after 2 s, tiny ones after 0.5 s.",
