@@ -167,6 +167,11 @@ impl<'a> Walk<'a> {
                     rows.push_str(&format!("| `{key}` | {spoken} | {default} | {about} |\n"));
                 }
                 Kind::Output => {
+                    // What is left out where it is null is never null.
+                    let spoken = match required.contains(&key.as_str()) {
+                        true => spoken.as_str(),
+                        false => spoken.trim_end_matches(", or null"),
+                    };
                     let absent = match required.contains(&key.as_str()) {
                         true => "",
                         false => " (may be absent)",
