@@ -303,7 +303,7 @@ fn every_run_has_the_same_bits() {
 fn growing_changes_no_bit() {
     let (position, velocity) = common::burst(3, 150);
     let scene = |margin: &str| {
-        let choices = [ADAPTIVE, "time.duration=0.2", margin];
+        let choices = [ADAPTIVE, "time.fps=60", "time.duration=0.05", margin];
         common::open_scene(3, &choices, position.clone(), velocity.clone())
     };
     let tight = frames(&scene("neighbors.margin=1"));

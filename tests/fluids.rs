@@ -155,7 +155,9 @@ fn every_grid_gives_the_same_flow() {
         for addressing in ADDRESSINGS.iter().map(|row| row.name) {
             for storage in STORAGES.iter().map(|row| row.name) {
                 for skin in ["0", "0.1"] {
-                    if storage == "pool" && skin != "0" {
+                    // In 2D, each way to address voxels and each way to keep particles; in 3D, each pair.
+                    let is_usual = addressing == "sliced" || storage == "counting";
+                    if storage == "pool" && skin != "0" || dimensions == 2 && !is_usual {
                         continue;
                     }
                     let grid = [

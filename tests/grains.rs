@@ -254,8 +254,8 @@ fn two_runs_give_the_same_bits_through_every_grid() {
                 "neighbors.slots=8".into(),
             ];
             let grid: Vec<&str> = grid.iter().map(String::as_str).collect();
-            let scene = common::scene(3, &grid);
-            let (one, two) = (run(&scene, 4).unwrap(), run(&scene, 4).unwrap());
+            let scene = heap(3, &grid).with_steps_per_frame(40);
+            let (one, two) = (run(&scene, 1).unwrap(), run(&scene, 1).unwrap());
             assert_eq!(one.columns, two.columns, "{addressing} × {storage}");
             assert_eq!(one.statistics, two.statistics, "{addressing} × {storage}");
         }
@@ -312,7 +312,7 @@ fn grains_rest_on_every_kind_of_obstacle() {
             dimensions,
             &[
                 "grains.restitution=0.2",
-                "grains.spring=100000",
+                "grains.spring=30000",
                 "time.duration=2",
                 "grains.global_damping=1",
             ],
@@ -363,7 +363,8 @@ fn every_variant_of_the_shaders_runs_on_the_adapter() {
                             overrides.push("colliders=[]".into());
                         }
                         let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
-                        let frame = run(&common::scene(dimensions, &overrides), 1).unwrap_or_else(|error| {
+                        let scene = common::scene(dimensions, &overrides).with_steps_per_frame(2);
+                        let frame = run(&scene, 1).unwrap_or_else(|error| {
                             panic!("{dimensions}D, {integrator}, {walls}, {name}: {error}")
                         });
                         assert!(frame.statistics.unwrap().kinetic_energy > 0.0);

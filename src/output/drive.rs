@@ -96,7 +96,7 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         folder.path().display(),
         bytes(disk_bytes(scene, &settings.outputs)),
     ));
-    progress.expect(particles(scene).split_off(first as usize));
+    progress.expect(particles(scene).into_iter().skip(first as usize).collect());
     let mut simulation = Simulation::new(gpu, scene, &plan)?;
     simulation.set_timings(settings.timings);
     if let Some(state) = start.state() {
