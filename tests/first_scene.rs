@@ -118,7 +118,8 @@ fn keys_are_explained() {
     for (typed, meant) in [
         ("lookat", "`render.camera.target`"),
         ("fluid.viscosty", "`fluid.viscosity`"),
-        ("cylinder", "`bodies.shape`"),
+        ("cylinder", "`cylinder` is a value of `bodies.shape`"),
+        ("cube", "`box` is a value of `bodies.shape` or `colliders.shape`"),
         ("dt", "`time.step`"),
         ("nonsense", "the outermost keys are"),
     ] {

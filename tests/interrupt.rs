@@ -18,7 +18,7 @@ const PATIENCE: Duration = Duration::from_secs(180);
 const SCENE: &str = r#"{
   "dimensions": 2,
   "domain": { "min": [0, 0], "max": [1, 1] },
-  "grains": { "radius": 0.02, "density": 1000, "spring": 2000, "restitution": 0.5 },
+  "grains": { "radius": 0.02, "density": 1000, "spring": 20000, "restitution": 0.5 },
   "bodies": [ { "shape": { "kind": "box", "min": [0.1, 0.1], "max": [0.5, 0.5] }, "spacing": 0.041 } ],
   "time": { "duration": 1000, "fps": 200 },
   "render": { "size": [64, 48] }
@@ -55,14 +55,14 @@ fn interrupt(mut run: Child) -> String {
 #[test]
 fn a_frame_without_end_is_given_up_where_nothing_is_lost() {
     let place = place();
-    // Frame 1 has half a day of simulated time, with lists and without.
+    // Frame 1 has some hours of simulated time, with lists and without.
     for (out, skin) in [("listed", "0.1"), ("plain", "0")] {
         let skin = format!("neighbors.skin={skin}");
         let more = [
             "--set",
-            "time.fps=2e-5",
+            "time.fps=5e-5",
             "--set",
-            "time.duration=1e5",
+            "time.duration=4e4",
             "--set",
             &skin,
         ];
@@ -107,6 +107,33 @@ fn what_is_waited_for_is_told() {
         &mut place.sliceflow(&["resume", "run", "--frames", &(frames + 2).to_string()]),
         0,
     );
+}
+
+/// Frames that take long are not waited for, and their state is not lost either.
+#[test]
+fn long_frames_resume_to_the_same_bytes() {
+    let place = place();
+    let long = ["--set", "time.fps=0.2", "--set", "time.duration=15"];
+    place.told(&mut place.run("whole", &long), 0);
+    let mut run = start(&mut place.run("run", &long));
+    let patience = Instant::now();
+    let lines = |path: &std::path::Path| std::fs::read_to_string(path).map_or(0, |text| text.lines().count());
+    while lines(&place.path("run/stats.jsonl")) < 2 && run.try_wait().unwrap().is_none() {
+        assert!(patience.elapsed() < PATIENCE);
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    interrupt(run);
+    let frames = place.manifest("run")["frames_done"].as_u64().unwrap();
+    assert_eq!(
+        place.checkpoints("run"),
+        [format!("checkpoint_{:06}.bin", frames - 1)]
+    );
+    let told = place.told(&mut place.sliceflow(&["resume", "run"]), 0);
+    assert!(
+        told.contains(&format!("going on behind frame {}", frames - 1)),
+        "{told}"
+    );
+    place.assert_same("whole", "run", "a run that was interrupted");
 }
 
 #[test]

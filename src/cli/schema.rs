@@ -143,9 +143,16 @@ fn unknown(typed: &str, of: Of, keys: &[Key]) -> Error {
             .collect(),
         _ => Vec::new(),
     };
-    if near.is_empty() {
-        let takes = |key: &&Key| key.choices.iter().any(|(word, _)| word == last);
-        near.extend(keys.iter().filter(takes).map(Key::plain_path));
+    let whose = match of {
+        Of::Scene => "scenes",
+        Of::Stats => "stats.jsonl",
+        Of::Run => "run.json",
+    };
+    let what = format!("no key of {whose} is called `{typed}`");
+    if near.is_empty()
+        && let Some((word, takers)) = word(last, keys)
+    {
+        return Error::usage(what, format!("`{word}` is a value of {}", quoted(&takers)));
     }
     if near.is_empty()
         && let Some(name) = synonyms::nearest(last, keys.iter().map(Key::name))
@@ -162,12 +169,21 @@ fn unknown(typed: &str, of: Of, keys: &[Key]) -> Error {
         }
         near => format!("did you mean {}?", quoted(near)),
     };
-    let whose = match of {
-        Of::Scene => "scenes",
-        Of::Stats => "stats.jsonl",
-        Of::Run => "run.json",
+    Error::usage(what, help)
+}
+
+/// The word of scenes that `typed` is or means, and the keys that take it.
+fn word<'a>(typed: &'a str, keys: &[Key]) -> Option<(&'a str, Vec<String>)> {
+    let words = [typed]
+        .into_iter()
+        .chain(synonyms::words_for(typed).iter().copied());
+    let takers = |word: &str| -> Vec<String> {
+        // `bodies.shape` has the words of its `kind`.
+        let takes = |key: &&Key| key.name() != "kind" && key.choices.iter().any(|(known, _)| known == word);
+        keys.iter().filter(takes).map(Key::plain_path).collect()
     };
-    Error::usage(format!("no key of {whose} is called `{typed}`"), help)
+    let all = words.map(|word| (word, takers(word)));
+    all.into_iter().find(|(_, takers)| !takers.is_empty())
 }
 
 /// `` `a`, `b` or `c` ``

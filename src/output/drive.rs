@@ -26,6 +26,8 @@ use crate::simulation::frame::Frame;
 use crate::simulation::{Simulation, State};
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
+/// Behind a frame that took so many seconds the state is kept in memory, so that Ctrl-C need not wait for the next one.
+const LONG_FRAME_S: f64 = 1.0;
 
 /// A run about to begin.
 pub(super) struct Launch<'a> {
@@ -164,6 +166,7 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         health,
         tally,
         stopping,
+        held: None,
         pass_ms: Vec::new(),
         frames_timed: 0,
     };
@@ -237,7 +240,7 @@ fn warn_of_other_machine(was: &About, is: &About, progress: &Progress) {
 struct Run<'a> {
     sinks: Vec<Box<dyn Sink>>,
     progress: Progress,
-    /// Of the next checkpoint.
+    /// Of checkpoints, but for what changes during the run.
     about: About,
     keeper: Keeper,
     manifest: Manifest<'a>,
@@ -245,6 +248,8 @@ struct Run<'a> {
     health: Health,
     tally: Tally,
     stopping: Stopping,
+    /// The state behind the last frame, where that took long and is in no file yet.
+    held: Option<Checkpoint>,
     /// Sums over this sitting, by pass.
     pass_ms: Vec<(String, f64)>,
     frames_timed: u32,
@@ -259,18 +264,19 @@ impl Run<'_> {
             self.checkpoint_when_due(simulation, false)?;
         }
         let mut given_up = false;
-        let mut usual_s = None;
+        let mut took_s = None;
         while simulation.next_index() < frames && !given_up && !interrupt::asked() {
-            self.prepare_to_stop(simulation, usual_s);
+            self.prepare_to_stop(simulation, took_s);
             let begun = Instant::now();
             match simulation.next_frame() {
                 Ok(frame) => frame.map_or(Ok(()), |frame| self.take(frame))?,
                 Err(Error::Interrupted { .. }) => given_up = true,
                 Err(error) => return Err(error),
             }
-            usual_s = Some(begun.elapsed().as_secs_f64());
+            took_s = Some(begun.elapsed().as_secs_f64());
             if !given_up {
                 self.checkpoint_when_due(simulation, false)?;
+                self.hold(simulation, took_s >= Some(LONG_FRAME_S))?;
             }
             if simulation.next_index() == 1 {
                 // There is something to look at while the next frames are made.
@@ -279,8 +285,10 @@ impl Run<'_> {
         }
         self.stopping.files();
         self.receive_all(simulation)?;
-        if !given_up {
-            self.checkpoint_when_due(simulation, true)?;
+        match self.held.take() {
+            _ if !given_up => self.checkpoint_when_due(simulation, true)?,
+            Some(held) => self.save(held)?,
+            None => {}
         }
         match self.tally.frames_done {
             done if done < self.tally.frames => Err(Error::interrupted_after(done)),
@@ -291,7 +299,8 @@ impl Run<'_> {
     /// The next frame is given up on Ctrl-C where nothing but itself is lost with it.
     fn prepare_to_stop(&self, simulation: &mut Simulation, usual_s: Option<f64>) {
         let index = simulation.next_index();
-        if index.checked_sub(1).is_none_or(|last| self.keeper.has(last)) {
+        let is_safe = |last| self.held.is_some() || self.keeper.has(last);
+        if index.checked_sub(1).is_none_or(is_safe) {
             simulation.stop_when(Some(interrupt::asked));
             self.stopping.nothing();
         } else {
@@ -307,8 +316,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Writes a checkpoint if one is due: when all frames so far are sound and safe on disk, and not before. That it
-    /// cannot be written is no reason to stop.
+    /// Writes a checkpoint if one is due.
     fn checkpoint_when_due(&mut self, simulation: &mut Simulation, at_end: bool) -> Result<()> {
         let Some(frame) = simulation.next_index().checked_sub(1) else {
             return Ok(());
@@ -316,14 +324,41 @@ impl Run<'_> {
         if !self.keeper.is_due(frame, at_end) {
             return Ok(());
         }
+        let checkpoint = self.checkpoint(simulation)?;
+        self.save(checkpoint)
+    }
+
+    /// Holds the state behind the frame made last, if that was a `long` one without a checkpoint, and no other.
+    fn hold(&mut self, simulation: &mut Simulation, long: bool) -> Result<()> {
+        self.held = None;
+        let last = simulation.next_index().saturating_sub(1);
+        if long && !self.keeper.has(last) {
+            self.held = Some(self.checkpoint(simulation)?);
+        }
+        Ok(())
+    }
+
+    /// The state behind the frame made last, when all frames so far are sound.
+    fn checkpoint(&mut self, simulation: &mut Simulation) -> Result<Checkpoint> {
         self.receive_all(simulation)?;
+        Ok(Checkpoint {
+            about: About {
+                particle_steps: self.tally.particle_steps,
+                health: self.health.clone(),
+                ..self.about.clone()
+            },
+            state: simulation.save_state()?,
+        })
+    }
+
+    /// Writes a checkpoint when all frames so far are safe on disk. That it cannot be written is no reason to stop.
+    fn save(&mut self, checkpoint: Checkpoint) -> Result<()> {
+        let frame = checkpoint.state.frame;
         for sink in &mut self.sinks {
             sink.flush()?;
         }
         self.folder.save(self.keeper.unsaved(frame))?;
-        self.about.particle_steps = self.tally.particle_steps;
-        self.about.health = self.health.clone();
-        let written = self.keeper.write(simulation.save_state()?, self.about.clone());
+        let written = self.keeper.write(&checkpoint);
         if let Err(error) = written.and_then(|()| self.manifest.update(self.tally)) {
             self.progress.warn(&format!(
                 "no checkpoint was written after frame {frame}, and the run goes on: {error}"

@@ -6,12 +6,11 @@ use std::str::FromStr;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::checkpoint::{About, Checkpoint};
+use super::checkpoint::Checkpoint;
 use super::disk;
 use super::folder::Folder;
 use super::text::{count, seconds};
 use crate::error::Result;
-use crate::simulation::State;
 
 /// What a user wants of checkpoints.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -135,10 +134,10 @@ impl Keeper {
 
     /// Every frame up to the state's must be safe on disk. After a failure, the next is due as if this one had been
     /// written, so that a full disk is told at the same pace.
-    pub fn write(&mut self, state: State, about: About) -> Result<()> {
-        let frame = state.frame;
+    pub fn write(&mut self, checkpoint: &Checkpoint) -> Result<()> {
+        let frame = checkpoint.state.frame;
         self.last_frame = Some(frame);
-        let written = Checkpoint { about, state }.write(&self.folder.checkpoint(frame));
+        let written = checkpoint.write(&self.folder.checkpoint(frame));
         self.last_time = Instant::now();
         written.and_then(|()| self.thin_out())
     }
@@ -161,6 +160,8 @@ impl Keeper {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::checkpoint::About;
+    use crate::simulation::State;
 
     #[test]
     fn distances_are_frames_or_wall_clock_time() {
@@ -223,7 +224,7 @@ mod tests {
                 particle_steps: 0,
                 health: Default::default(),
             };
-            keeper.write(state, about).unwrap();
+            keeper.write(&Checkpoint { about, state }).unwrap();
         }
         let frames: Vec<u32> = folder
             .checkpoints()

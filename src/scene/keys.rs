@@ -143,9 +143,17 @@ impl<'a> Walk<'a> {
             variants,
         } = place;
         let real = self.resolve(schema);
-        let mut about: Vec<String> = [schema, real, self.element(real)]
-            .iter()
-            .filter_map(|part| part["description"].as_str())
+        // The property's own words say what its type's would; what a list holds comes on top.
+        let own = [schema, real]
+            .into_iter()
+            .find_map(|part| part["description"].as_str());
+        let element = self.element(real);
+        let of_element = element["description"]
+            .as_str()
+            .filter(|_| !std::ptr::eq(element, real));
+        let mut about: Vec<String> = own
+            .into_iter()
+            .chain(of_element)
             .map(|text| text.replace('\n', " "))
             .collect();
         about.dedup();

@@ -441,6 +441,13 @@ pub fn keys_for(typed: &str) -> &'static [&'static str] {
     synonym(typed).map_or(&[], |row| row.keys)
 }
 
+/// Words of scenes that a word of another program may mean.
+pub fn words_for(typed: &str) -> &'static [&'static str] {
+    let spelled = plain(typed);
+    let row = WORDS.iter().find(|(word, _)| *word == spelled);
+    row.map_or(&[], |(_, ours)| ours)
+}
+
 fn synonym(typed: &str) -> Option<&'static Synonym> {
     let spelled = plain(typed);
     KEYS.iter().find(|row| row.typed == spelled)

@@ -61,7 +61,8 @@ impl Bench {
     /// Tells on standard error what is under way.
     pub fn tell(&self, text: &str) {
         *self.now.lock().unwrap_or_else(PoisonError::into_inner) = text.to_owned();
-        if !self.quiet {
+        // What comes after Ctrl-C is left out.
+        if !self.quiet && !interrupt::heeded() {
             tell(text);
         }
     }

@@ -182,7 +182,7 @@ impl Shared {
             return Ok(times.clone());
         }
         let drops = self.all_drops(bench)?;
-        let times = Rc::new(times::of_drops(bench, &self.scale, &drops));
+        let times = Rc::new(times::of_drops(bench, &self.scale, &drops)?);
         bench.check()?;
         self.times = Some(times.clone());
         Ok(times)

@@ -52,11 +52,12 @@ fn refusal(error: &Error) -> String {
 }
 
 /// Times of all grids for each drop when its sliced grid is widest.
-pub fn of_drops(bench: &Bench, scale: &Scale, drops: &[Rc<Drop>]) -> AllTimes {
+pub fn of_drops(bench: &Bench, scale: &Scale, drops: &[Rc<Drop>]) -> Result<AllTimes> {
     let of_drop = |drop: &Rc<Drop>| {
+        bench.check()?;
         let grains = count(drop.scene.capacity.into());
         bench.tell(&format!("harada: times of all grids, {grains} grains"));
-        of_grids(bench, scale, &drop.at(&drop.widest), timed_names())
+        Ok(of_grids(bench, scale, &drop.at(&drop.widest), timed_names()))
     };
     drops.iter().map(of_drop).collect()
 }
