@@ -390,12 +390,12 @@ fn sliced_allocates_the_bounding_box_of_each_slice() {
 
 #[test]
 fn folded_dispatches_do_the_same_work() {
-    // Four groups of a dispatch in one dimension, instead of 65,535.
+    // Eight groups of a dispatch in one dimension, instead of 65,535.
     let points = random(3, 3000, 7);
     for grid in grids() {
         let scene = scene_of(3, grid, "y", 64, &points);
         let mut gpu = Gpu::open(&AdapterChoice::Best, true).unwrap();
-        gpu.limits.groups = 4;
+        gpu.limits.groups = 8;
         let plan = Plan::new(&scene, &gpu.limits, &Wanted::default()).unwrap();
         let mut folded = Simulation::new(gpu, &scene, &plan).unwrap();
         folded.next_frame().unwrap();

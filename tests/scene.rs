@@ -428,7 +428,7 @@ fn boxes_that_share_a_spacing_stay_whole() {
     assert_eq!(scene.first_wall(), 25 + 25);
     assert_eq!(scene.notes.len(), 3, "{:?}", scene.notes);
     assert!(
-        scene.notes[1].contains("bodies[0]: its sides are no whole numbers of spacings"),
+        scene.notes[1].contains("bodies[0]: its sides are not whole numbers of spacings"),
         "{:?}",
         scene.notes
     );

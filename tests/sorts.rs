@@ -218,7 +218,7 @@ fn a_full_packed_pair_is_not_taken_for_the_end() {
     .unwrap();
     assert!(plan.variant.flags.contains("packed_pairs"));
     let bench = Bench::new(&scene, None);
-    let points = vec![[far.x, far.y]; 1 << 16];
+    let points = vec![[far.x, far.y, 0.0, 0.0]; 1 << 16];
     let ids: Vec<u32> = (0..1 << 16).rev().collect();
     bench.write("next_position", &points);
     bench.write("next_id", &ids);
@@ -309,8 +309,8 @@ fn prefix_sums_are_the_cpus() {
 
 #[test]
 fn folded_prefix_sums_are_too() {
-    // A block is 2048 items: four workgroups a dimension are folded beyond 8192.
-    for voxels in [0, 1, 2, 31, 255, 256, 257, 2046, 2047, 8190, 8191, 30_000] {
-        check_scan(voxels, Some(4));
+    // A block is 2048 items: 40 workgroups per dimension are folded beyond 81,920.
+    for voxels in [0, 1, 2, 31, 255, 256, 257, 2046, 2047, 81_917, 81_918, 81_919, 100_000] {
+        check_scan(voxels, Some(40));
     }
 }

@@ -180,13 +180,16 @@ impl Plan {
 
     /// The same plan with this grid, whose buffers have room for what particles need by now.
     pub fn with_grid(&self, scene: &Scene, limits: &Limits, grid: Grid) -> Result<Self> {
-        Ok(Self {
-            // A grid decides how large buffers are, and nothing about shaders.
-            passes: self.passes.clone(),
-            draws: self.draws.clone(),
-            lists_left_out: self.lists_left_out.clone(),
-            ..Self::of_grid(scene, limits, &self.wanted, grid)?
-        })
+        // A grid decides how large buffers are and how many digits a sort has, and nothing about shaders.
+        let mut plan = Self::of_grid(scene, limits, &self.wanted, grid)?;
+        for row in &mut plan.passes {
+            let of = |pass: &PassPlan| (pass.shader.clone(), pass.entry.clone());
+            let known = self.passes.iter().find(|known| of(&known.pass) == of(&row.pass));
+            row.demand = known.map_or_else(Demand::default, |known| known.demand.clone());
+        }
+        plan.draws.clone_from(&self.draws);
+        plan.lists_left_out.clone_from(&self.lists_left_out);
+        Ok(plan)
     }
 
     /// The plan with this grid. It does not say yet what its passes demand of the adapter.
