@@ -312,7 +312,7 @@ fn grains_rest_on_every_kind_of_obstacle() {
             dimensions,
             &[
                 "grains.restitution=0.2",
-                "grains.spring=30000",
+                "grains.spring=100000",
                 "time.duration=2",
                 "grains.global_damping=1",
             ],

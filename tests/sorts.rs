@@ -59,7 +59,10 @@ impl Bench {
                 ..Default::default()
             }],
         );
-        self.write("dispatch", &plan.dispatch(particle_count, &gpu.limits));
+        self.write(
+            "dispatch",
+            &plan.dispatch(particle_count, particle_count, &gpu.limits),
+        );
         let mut passes = Passes::new(gpu, plan, buffers, &mut Kernels::default()).expect("passes");
         let planned = plan.in_phase(Phase::Start);
         let steps = planned.zip(passes.start.drain(..));
@@ -310,7 +313,9 @@ fn prefix_sums_are_the_cpus() {
 #[test]
 fn folded_prefix_sums_are_too() {
     // A block is 2048 items: 40 workgroups per dimension are folded beyond 81,920.
-    for voxels in [0, 1, 2, 31, 255, 256, 257, 2046, 2047, 81_917, 81_918, 81_919, 100_000] {
+    for voxels in [
+        0, 1, 2, 31, 255, 256, 257, 2046, 2047, 81_917, 81_918, 81_919, 100_000,
+    ] {
         check_scan(voxels, Some(40));
     }
 }

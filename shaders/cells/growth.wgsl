@@ -27,7 +27,10 @@ const DISPATCH_MOVING: u32 = 6u;
 const DISPATCH_RETURNING: u32 = 7u;
 const DISPATCH_AWAY: u32 = 8u;
 const DISPATCH_RETURNED: u32 = 9u;
-const DISPATCHES: u32 = 10u;
+const DISPATCH_FREE: u32 = 10u;
+const DISPATCH_SEARCHED_FREE: u32 = 11u;
+const DISPATCH_MOVING_FREE: u32 = 12u;
+const DISPATCHES: u32 = 13u;
 
 fn set_groups(which: u32, groups: u32) {
     let most = dispatch[which].w;

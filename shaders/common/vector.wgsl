@@ -7,6 +7,11 @@ fn pack(v: Vector) -> Packed {
     return pack_with(v, 0.0);
 }
 
+// What `pack_with` put beside a vector.
+fn number_of(stored: Packed) -> f32 {
+    return stored.w;
+}
+
 #if two_dimensional
 alias Vector = vec2f;
 alias Coordinate = vec2i; // of a voxel

@@ -24,7 +24,7 @@ fn count_neighbors(thread: Thread) {
     var count = 0u;
     for (var k = 0u; k < RANGES; k++) {
         let range = candidate_range(home, k);
-        for (var slot = range.x; slot < range.y; slot++) {
+        for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
             count += u32(j != i && within(unpack(position[j]) - x, search_radius));
         }
@@ -43,7 +43,7 @@ fn list_neighbors(thread: Thread) {
     var next = neighbor_start[i];
     for (var k = 0u; k < RANGES; k++) {
         let range = candidate_range(home, k);
-        for (var slot = range.x; slot < range.y; slot++) {
+        for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
             if j != i && within(unpack(position[j]) - x, search_radius) {
                 neighbor_id[next] = id[j];

@@ -158,7 +158,13 @@ impl Composed {
             let place = format!("shaders/{file}:{number}");
             let mut words = line.split_whitespace();
             let keep = open.iter().all(|&kept| kept);
-            match (words.next(), words.next()) {
+            let [first, second, third] = [words.next(), words.next(), words.next()];
+            if let (Some("#if" | "#flag" | "#import"), Some(more)) = (first, third) {
+                return Err(fail(format!(
+                    "{place}: `{more}` is too much: a directive takes one word"
+                )));
+            }
+            match (first, second) {
                 (Some("#if"), Some(flag)) => open.push(match flag.strip_prefix('!') {
                     Some(flag) => !variant.flags.contains(flag),
                     None => variant.flags.contains(flag),

@@ -85,14 +85,24 @@ pub enum Items {
     AwayParticles,
     /// One per particle, when the last move returned them and they are searched anew.
     ReturnedParticles,
+    /// One per particle that is no boundary particle; where the search does not sort, one per particle.
+    FreeParticles,
+    /// The same, when particles are searched anew.
+    SearchedFreeParticles,
+    /// The same, when lists serve and steps are left to do.
+    MovingFreeParticles,
     /// One per particle, as long as the loop of this number goes on.
     Loop(u32),
+    /// The same, for the second pass of an iteration.
+    LoopSecond(u32),
+    /// One workgroup, as long as the loop of this number went on when that was last looked up.
+    LoopOnce(u32),
     /// A number known beforehand, come what may.
     Fixed(u32),
 }
 
 /// Entries of the buffer `dispatch`.
-pub const DISPATCHES: u64 = 10;
+pub const DISPATCHES: u64 = 13;
 
 impl Items {
     /// Which buffer, and which of its entries, has the number of workgroups; `None` for a fixed number.
@@ -111,8 +121,13 @@ impl Items {
             Self::ReturningParticles => Some(("dispatch", 7)),
             Self::AwayParticles => Some(("dispatch", 8)),
             Self::ReturnedParticles => Some(("dispatch", 9)),
+            Self::FreeParticles => Some(("dispatch", 10)),
+            Self::SearchedFreeParticles => Some(("dispatch", 11)),
+            Self::MovingFreeParticles => Some(("dispatch", 12)),
             Self::SearchedOnce => Some(("search_dispatch", 0)),
-            Self::Loop(number) => Some(("loop_dispatch", number.into())),
+            Self::Loop(number) => Some(("loop_dispatch", 2 * u64::from(number))),
+            Self::LoopSecond(number) => Some(("loop_dispatch", 2 * u64::from(number) + 1)),
+            Self::LoopOnce(number) => Some(("check_dispatch", number.into())),
             Self::Fixed(_) => None,
         }
     }
@@ -125,6 +140,8 @@ pub struct Repeat {
     pub number: u32,
     /// How often they are recorded: as often as they may run.
     pub times: u32,
+    /// Whether this pass is recorded in the repetitions 0, 1, 2, 4, 8 and so on only.
+    pub sparse: bool,
 }
 
 /// A compute pass that a plan asks for. Its label is its entry point: a verb.

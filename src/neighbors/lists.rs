@@ -12,6 +12,10 @@ use crate::scene::{Dimensions, Matter, Scene};
 /// Shader of the pass that counts a step; with lists it also decides whether to search.
 const CLOCK: &str = "physics/advance_clock";
 
+/// Particles whose rows of a list are interleaved: what the narrowest processors read side by side; wider ones read whole
+/// sectors of memory all the same.
+const LIST_LANES: u32 = 8;
+
 /// Whether the scene asks for lists.
 pub fn wanted(scene: &Scene) -> bool {
     scene.neighbors.skin > 0.0 || every_step(scene)
@@ -22,6 +26,11 @@ pub fn every_step(scene: &Scene) -> bool {
     scene
         .fluid()
         .is_some_and(|fluid| fluid.solver == FluidSolver::Dfsph)
+}
+
+/// Whether boundary particles stand at the end of each list, for a solver whose loops leave them out.
+fn walls_apart(scene: &Scene) -> bool {
+    every_step(scene) && !scene.walls.is_empty()
 }
 
 /// Neighbors of a particle within the radius and the skin: in a dense packing of equal spheres, or on a lattice as wide
@@ -49,13 +58,16 @@ pub fn buffers(scene: &Scene, length: u32) -> Vec<BufferPlan> {
         true => u64::from(scene.first_wall()),
         false => particles,
     };
+    // Rows are interleaved by so many.
+    let rows = listed.next_multiple_of(LIST_LANES.into());
     let length = u64::from(length);
+    let head = 1 + u64::from(walls_apart(scene));
     let mut buffers = vec![
         BufferPlan::storage(
             "neighbor_list",
-            listed * (length + 1),
+            rows * (length + head),
             4,
-            format!("number and indices of up to {length} neighbors of each particle"),
+            format!("numbers and indices of up to {length} neighbors of each particle"),
         ),
         BufferPlan::storage(
             "list_state",
@@ -64,7 +76,14 @@ pub fn buffers(scene: &Scene, length: u32) -> Vec<BufferPlan> {
             "whether the lists still serve",
         ),
     ];
-    if !every_step {
+    if every_step {
+        buffers.push(BufferPlan::storage(
+            "pair_list",
+            rows * length,
+            8,
+            "the same neighbors with the kernel's gradients there",
+        ));
+    } else {
         buffers.push(BufferPlan::storage(
             "listed_position",
             particles,
@@ -119,10 +138,10 @@ pub fn can_be_left_out(scene: &Scene) -> bool {
 fn needed_by(scene: &Scene) -> Option<(&'static str, &'static str)> {
     if scene.domain.period() != glam::Vec3::ZERO {
         Some(("periodic sides need lists", "choose other sides"))
-    } else if scene.time.adaptive.is_some() {
-        Some(("adaptive steps need lists", "set time.adaptive to false"))
     } else if every_step(scene) {
         Some(("the solver `dfsph` needs lists", "choose another fluid.solver"))
+    } else if scene.time.adaptive.is_some() {
+        Some(("adaptive steps need lists", "set time.adaptive to false"))
     } else {
         None
     }
@@ -159,6 +178,8 @@ pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
     variant
         .flag("lists", true)
         .flag("lists_every_step", every_step(scene))
+        .flag("walls_apart", walls_apart(scene))
+        .constant("LIST_LANES", LIST_LANES)
         .flag("periodic", scene.domain.period() != glam::Vec3::ZERO)
         .role("candidates", "storage/lists/query");
     search_state(search);
@@ -174,7 +195,11 @@ pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
         PassPlan::new(
             "storage/lists/build",
             "list_candidates",
-            Items::SearchedParticles,
+            if every_step(scene) {
+                Items::SearchedFreeParticles
+            } else {
+                Items::SearchedParticles
+            },
             "neighbors within the search radius and the skin",
         ),
         PassPlan::new(
@@ -191,6 +216,8 @@ fn when(passes: &[PassPlan], particles: Items) -> Vec<PassPlan> {
     let pass = |pass: &PassPlan| PassPlan {
         items: match (pass.items, particles) {
             (Items::Particles, _) => particles,
+            (Items::FreeParticles, Items::SearchedParticles) => Items::SearchedFreeParticles,
+            (Items::FreeParticles, Items::MovingParticles) => Items::MovingFreeParticles,
             (Items::Once | Items::Fixed(1), Items::SearchedParticles) => Items::SearchedOnce,
             (other, _) => other,
         },

@@ -9,7 +9,8 @@
 
 use super::Solver;
 use super::dem::has_wall;
-use super::fluid::{FLAG, kernel_file};
+use super::fluid::{FLAG, coefficients, kernel_file};
+use super::kernels;
 use super::layout::{Convergence, Dfsph, Fluid, Measure, PACKED_BYTES, Rim};
 use crate::gpu::{BufferPlan, Items, PassPlan, Repeat, Variant};
 use crate::neighbors::storage;
@@ -17,8 +18,8 @@ use crate::scene::column::Column;
 use crate::scene::model::{Slip, Wall};
 use crate::scene::{self, Scene};
 
-/// Threads of the passes that begin and check loops: one workgroup (`control.wgsl`).
-const LOOP_THREADS: u32 = 256;
+/// Sums that the errors of all particles are added to.
+const ERROR_SUMS: u32 = 256;
 /// Loops, as `control.wgsl` numbers them.
 const DENSITY: u32 = 0;
 const DIVERGENCE: u32 = 1;
@@ -29,6 +30,9 @@ const RELAXATION: f32 = 0.3;
 const MOMENTUM: f32 = 0.7;
 /// Share of the last step's pressures that a step begins with; without them the same run takes 50 iterations and more.
 const WARM_START: f32 = 1.0;
+/// The same of what corrected densities, which changes faster. Dam break in 3D, 59,319 particles, mean iterations after the
+/// impact: 8.8 without, 5.1 with 0.5, 1.7 with 0.9.
+const WARM_CORRECTION: f32 = 0.9;
 /// What such a fluid needs. `columns` are those that somebody asked for, `statistics` whether figures over it are.
 pub fn plan(
     scene: &Scene,
@@ -49,6 +53,11 @@ pub fn plan(
         .flag("moving_boundaries", moving)
         .flag("viscosity", fluid.materials[0].viscosity > 0.0)
         .flag("artificial_viscosity", fluid.artificial_viscosity > 0.0)
+        .flag(
+            "drag",
+            fluid.artificial_viscosity > 0.0 || fluid.materials[0].viscosity > 0.0,
+        )
+        .constant("ERROR_SUMS", ERROR_SUMS)
         .flag("slips", walls && fluid.slip == Slip::FreeSlip)
         .flag("rim", rim)
         .flag("faces", faces)
@@ -57,7 +66,6 @@ pub fn plan(
 
     let mut solver = Solver::default();
     let each = u64::from(scene.capacity);
-    let groups = u64::from(scene.capacity.div_ceil(crate::gpu::compose::GROUP_SIZE));
     let listed = match storage::row(scene.neighbors.storage).sorts {
         true => u64::from(scene.first_wall()),
         false => each,
@@ -66,18 +74,24 @@ pub fn plan(
         BufferPlan::storage("fluid_state", each, 8, "density and pressure"),
         BufferPlan::storage("own", listed, 16, "what the loops keep of each particle"),
         BufferPlan::storage(
-            "pressure_point",
-            each,
-            PACKED_BYTES,
-            "positions, and pressures that are to act there",
+            "acting_impulse",
+            listed,
+            4,
+            "pressures that are to act, times a time",
         ),
         BufferPlan::storage(
-            "partial_error",
-            groups,
+            "error_sum",
+            ERROR_SUMS.into(),
             4,
-            "errors of workgroups, added in a fixed order",
+            "errors of particles, added as whole numbers",
         ),
-        BufferPlan::indirect("loop_dispatch", 2, 16, "workgroups of the loops that go on"),
+        BufferPlan::indirect("loop_dispatch", 4, 16, "workgroups of the loops that go on"),
+        BufferPlan::indirect(
+            "check_dispatch",
+            2,
+            16,
+            "a workgroup for the checks of those loops",
+        ),
         BufferPlan::storage(
             "convergence",
             1,
@@ -95,6 +109,10 @@ pub fn plan(
     }
     if walls {
         let count = scene.walls.len() as u64;
+        let why = "what boundary particles add to the loops";
+        solver
+            .buffers
+            .push(BufferPlan::storage("wall_pull", listed, PACKED_BYTES, why));
         let why = "boundary particles: velocity of the surface, and whose they are";
         solver
             .buffers
@@ -113,22 +131,32 @@ pub fn plan(
     let pass = |file: &str, entry, items, why: &str| {
         PassPlan::new(&format!("physics/dfsph/{file}"), entry, items, why)
     };
-    let once = Items::Fixed(LOOP_THREADS);
-    let repeated = |number, times, passes: [PassPlan; 3]| {
-        passes.map(|pass| PassPlan {
-            repeat: Some(Repeat { number, times }),
+    let once = Items::Fixed(1);
+    let times = fluid.max_iterations;
+    let repeated = |number, passes: [PassPlan; 4]| {
+        let of = |sparse| Repeat {
+            number,
+            times,
+            sparse,
+        };
+        let mut passes = passes.map(|pass| PassPlan {
+            repeat: Some(of(false)),
             ..pass
-        })
+        });
+        passes[0].repeat = Some(of(true));
+        passes
     };
+    let watch = "whether the loop goes on, so that its checks run";
     let density = Items::Loop(DENSITY);
     let divergence = Items::Loop(DIVERGENCE);
     let all = Items::Particles;
+    let free = Items::FreeParticles;
     let push = "impulses change velocities";
     solver.before_search.extend([
         pass(
             "apply_forces",
             "apply_forces",
-            all,
+            free,
             "velocities after all forces but pressure",
         ),
         pass(
@@ -146,8 +174,8 @@ pub fn plan(
     ]);
     solver.before_search.extend(repeated(
         DIVERGENCE,
-        fluid.max_iterations,
         [
+            pass("control", "watch_divergence_loop", once, watch),
             pass(
                 "divergence_loop",
                 "find_divergence",
@@ -157,48 +185,64 @@ pub fn plan(
             pass(
                 "control",
                 "check_divergence",
-                once,
+                Items::LoopOnce(DIVERGENCE),
                 "whether divergence has converged",
             ),
-            pass("divergence_push", "correct_velocity", divergence, push),
+            pass(
+                "divergence_push",
+                "correct_velocity",
+                Items::LoopSecond(DIVERGENCE),
+                push,
+            ),
         ],
     ));
     solver.before_search.extend([
-        pass(
-            "density_push",
-            "follow_velocity",
-            all,
-            "particles go as their velocities say",
-        ),
         pass(
             "control",
             "begin_density_loop",
             once,
             "the loop of density begins",
         ),
+        pass(
+            "density_push",
+            "follow_velocity",
+            density,
+            "particles go as their velocities say",
+        ),
+        pass(
+            "density_push",
+            "push_apart",
+            density,
+            "corrections of the step before act first",
+        ),
     ]);
     solver.before_search.extend(repeated(
         DENSITY,
-        fluid.max_iterations,
         [
+            pass("control", "watch_density_loop", once, watch),
             pass(
                 "density_loop",
                 "predict_density",
                 density,
                 "density at the step's end, and the impulse against it",
             ),
-            pass("control", "check_density", once, "whether density has converged"),
+            pass(
+                "control",
+                "check_density",
+                Items::LoopOnce(DENSITY),
+                "whether density has converged",
+            ),
             pass(
                 "density_push",
                 "push_apart",
-                density,
+                Items::LoopSecond(DENSITY),
                 "impulses change where particles go",
             ),
         ],
     ));
     solver
         .before_search
-        .push(pass("move", "move_fluid", all, "positions at the step's end"));
+        .push(pass("move", "move_fluid", free, "positions at the step's end"));
     if walls {
         let why = "boundary particles move with their bodies";
         solver
@@ -214,7 +258,7 @@ pub fn plan(
     solver.after_search.push(pass(
         "find_density",
         "find_density",
-        all,
+        free,
         "density by summation, and how it answers to pressure",
     ));
     if statistics {
@@ -236,8 +280,10 @@ pub fn plan(
     solver
 }
 
-/// What the loops stop at, for the shaders.
-pub fn settings(fluid: &scene::fluid::Fluid) -> Dfsph {
+/// The loops' numbers for the shaders.
+pub fn settings(scene: &Scene, fluid: &scene::fluid::Fluid) -> Dfsph {
+    let given = coefficients(scene, fluid);
+    let slope = kernels::steepest(fluid.kernel, scene.dimensions.count());
     Dfsph {
         density_error: fluid.max_density_error as f32,
         divergence_error: fluid.max_divergence_error as f32,
@@ -246,5 +292,7 @@ pub fn settings(fluid: &scene::fluid::Fluid) -> Dfsph {
         relaxation: RELAXATION,
         momentum: MOMENTUM,
         warm_start: WARM_START,
+        warm_correction: WARM_CORRECTION,
+        steepest: given.volume * given.slope_scale / given.inverse_smoothing * slope as f32,
     }
 }

@@ -78,6 +78,14 @@ pub fn shape_slope(kernel: Kernel, dimensions: usize, q: f64) -> f64 {
     }
 }
 
+/// A bound of |df/dq|, no more than a thousandth above the largest.
+pub fn steepest(kernel: Kernel, dimensions: usize) -> f64 {
+    let steps = 1000;
+    let at = |step: i32| kernel.reach() * f64::from(step) / f64::from(steps);
+    let slopes = (0..steps).map(|step| shape_slope(kernel, dimensions, at(step)).abs());
+    1.0005 * slopes.fold(0.0, f64::max)
+}
+
 /// σ of the kernel whose gradient forces use.
 pub fn slope_normalization(kernel: Kernel, dimensions: usize) -> f64 {
     match kernel {

@@ -332,6 +332,8 @@ shared_struct! {
         pub relaxation: f32,
         pub momentum: f32,
         pub warm_start: f32,
+        pub warm_correction: f32,
+        pub steepest: f32,
     }
 }
 

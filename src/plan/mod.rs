@@ -378,19 +378,29 @@ impl Plan {
             | Items::ReturningParticles
             | Items::AwayParticles
             | Items::ReturnedParticles
-            | Items::Loop(_) => particles,
+            | Items::FreeParticles
+            | Items::SearchedFreeParticles
+            | Items::MovingFreeParticles
+            | Items::Loop(_)
+            | Items::LoopSecond(_) => particles,
             Items::Voxels => self.grid.capacity,
             Items::VoxelBlocks => self.scan_blocks(self.grid.capacity),
-            Items::Once | Items::SearchedOnce => 1,
+            Items::Once | Items::SearchedOnce | Items::LoopOnce(_) => 1,
             Items::Fixed(count) => count,
         }
     }
 
-    /// The buffer `dispatch` for so many particles that are searched anew, before any step.
+    /// The buffer `dispatch` for so many particles that are searched anew, before any step; `free` of them are no boundary
+    /// particles.
     ///
     /// Rows of x, y, z, and the groups that fit in one dimension.
-    pub fn dispatch(&self, particles: u32, limits: &Limits) -> [[u32; 4]; DISPATCHES as usize] {
+    pub fn dispatch(&self, particles: u32, free: u32, limits: &Limits) -> [[u32; 4]; DISPATCHES as usize] {
         let voxels = self.grid.capacity;
+        let free = if self.variant.flags.contains("separated") {
+            free
+        } else {
+            particles
+        };
         let groups = [
             particles.div_ceil(GROUP_SIZE),
             voxels.div_ceil(GROUP_SIZE),
@@ -401,6 +411,9 @@ impl Plan {
             0,
             0,
             0,
+            0,
+            free.div_ceil(GROUP_SIZE),
+            free.div_ceil(GROUP_SIZE),
             0,
         ];
         groups.map(|groups| {

@@ -174,7 +174,9 @@ impl Simulation {
         }
         self.plan = plan;
         self.buffers.write(&self.gpu, "grid", 0, &[self.plan.grid])?;
-        let dispatch = self.plan.dispatch(self.count, &self.gpu.limits);
+        let dispatch = self
+            .plan
+            .dispatch(self.count, self.free_particles(), &self.gpu.limits);
         self.buffers.write(&self.gpu, "dispatch", 0, &dispatch)
     }
 

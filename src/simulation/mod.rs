@@ -199,7 +199,7 @@ impl Simulation {
         self.write_measure()?;
         if let Matter::Fluid(given) = &scene.matter {
             if buffers.contains("dfsph") {
-                buffers.write(gpu, "dfsph", 0, &[dfsph::settings(given)])?;
+                buffers.write(gpu, "dfsph", 0, &[dfsph::settings(scene, given)])?;
             }
             buffers.write(gpu, "fluid", 0, &[fluid::coefficients(scene, given)])?;
             if buffers.contains("materials") {
@@ -246,7 +246,9 @@ impl Simulation {
             first_wall: self.scene.first_wall(),
         };
         self.buffers.write(&self.gpu, "parameters", 0, &[parameters])?;
-        let dispatch = self.plan.dispatch(self.count, &self.gpu.limits);
+        let dispatch = self
+            .plan
+            .dispatch(self.count, self.free_particles(), &self.gpu.limits);
         self.buffers.write(&self.gpu, "dispatch", 0, &dispatch)?;
         match (&self.scene.matter, &self.contact) {
             (Matter::Grains(grains), Some(contact)) => {

@@ -20,10 +20,12 @@ pub struct Step {
 /// The steps in the order in which they are recorded, loops as often as they may run.
 pub fn recorded(steps: &[Step]) -> Vec<&Step> {
     let mut order = Vec::new();
-    let loops = steps.chunk_by(|a, b| a.repeat.is_some() && a.repeat == b.repeat);
-    for passes in loops {
-        for _ in 0..passes[0].repeat.map_or(1, |repeat| repeat.times) {
-            order.extend(passes);
+    let number = |step: &Step| step.repeat.map(|repeat| repeat.number);
+    for passes in steps.chunk_by(|a, b| number(a).is_some() && number(a) == number(b)) {
+        for time in 0..passes[0].repeat.map_or(1, |repeat| repeat.times) {
+            let is_sparse = |step: &Step| step.repeat.is_some_and(|repeat| repeat.sparse);
+            let recorded = |step: &&Step| !is_sparse(step) || time == 0 || time.is_power_of_two();
+            order.extend(passes.iter().filter(recorded));
         }
     }
     order

@@ -17,8 +17,11 @@ const ROOM: f64 = 1.25;
 /// Adaptive steps that are submitted before the host looks how long they are by then.
 const MOST_AHEAD: u64 = 1024;
 
-/// Entry of `dispatch`: [`crate::gpu::Items::MovingParticles`].
+/// Entries of `dispatch` ([`crate::gpu::Items`]).
+const EVERYONE: usize = 0;
 const MOVING: usize = 6;
+const FREE: usize = 10;
+const MOVING_FREE: usize = 12;
 /// Field of [`crate::neighbors::layout::ListState`].
 const LAST_STEP: usize = 4;
 
@@ -122,7 +125,8 @@ impl Simulation {
     fn begin_steps(&self) -> Result<()> {
         let (gpu, buffers) = (&self.gpu, &self.buffers);
         buffers.write(gpu, "list_state", LAST_STEP, &[self.submitted as u32])?;
-        let everyone = self.plan.dispatch(self.count, &gpu.limits)[0];
-        buffers.write(gpu, "dispatch", MOVING, &[everyone])
+        let dispatch = self.plan.dispatch(self.count, self.free_particles(), &gpu.limits);
+        buffers.write(gpu, "dispatch", MOVING, &[dispatch[EVERYONE]])?;
+        buffers.write(gpu, "dispatch", MOVING_FREE, &[dispatch[FREE]])
     }
 }

@@ -19,7 +19,7 @@ fn sum_contacts(i: u32) -> ContactSum {
     let home = around(i, x);
     for (var k = 0u; k < RANGES; k++) {
         let range = candidate_range(home, k);
-        for (var slot = range.x; slot < range.y; slot++) {
+        for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
             let separation = unpack(position[j]) - x;
             if within(separation, contact.diameter) && j != i {

@@ -8,28 +8,23 @@
 #import physics/dfsph/own
 
 var<storage, read_write> next_velocity: array<Packed>; // w: pressure, Pa
-var<storage, read_write> pressure_point: array<Packed>; // position; w: impulse to act, Pa·s
+var<storage, read_write> acting_impulse: array<f32>; // Pa·s
 
 @compute @workgroup_size(GROUP_SIZE)
 fn apply_forces(thread: Thread) {
     let i = item_index(thread);
-    if i >= parameters.particle_count {
+    if i >= loop_count() || is_wall(i) {
         return;
     }
     let x = unpack(position[i]);
     let v = unpack(velocity[i]);
-    if is_wall(i) {
-        next_velocity[i] = pack(v);
-        pressure_point[i] = pack(x);
-        return;
-    }
     var acceleration = first(parameters.gravity);
-#if viscosity || artificial_viscosity
+#if drag
     var drag = Vector(0.0);
     let home = around(i, x);
     for (var k = 0u; k < RANGES; k++) {
         let range = candidate_range(home, k);
-        for (var slot = range.x; slot < range.y; slot++) {
+        for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
             let s = toward(x, j);
             let weight = -fluid.volume * kernel_slope(length(s));
@@ -51,9 +46,9 @@ fn apply_forces(thread: Thread) {
     }
     acceleration += drag;
 #end
-    let impulse = dfsph.warm_start * time_step() * velocity[i].w;
+    let impulse = dfsph.warm_start * time_step() * number_of(velocity[i]);
     own[i].impulse = impulse;
     own[i].previous = impulse;
     next_velocity[i] = pack(v + time_step() * acceleration);
-    pressure_point[i] = pack_with(x, impulse);
+    acting_impulse[i] = impulse;
 }

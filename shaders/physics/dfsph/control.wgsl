@@ -1,118 +1,134 @@
-// Begins, checks and ends the loops. One workgroup each, since a pass cannot be dispatched from the buffer that it writes.
+// Begins, checks and ends the loops.
 #import physics/dfsph/loop
 
-// LOOP_THREADS of physics::dfsph.
-const CHECK_THREADS: u32 = 256u;
-
-// Arguments of indirect dispatches, one per loop; in w the groups that fit in one dimension.
+// Arguments of indirect dispatches, for each loop those of its first and of its second pass; in w the groups that fit in one
+// dimension.
 var<storage, read_write> loop_dispatch: array<vec4u>;
+// The same for the passes that check a loop, which cannot be dispatched from what they write.
+var<storage, read_write> check_dispatch: array<vec4u>;
 var<storage, read> dispatch: array<vec4u>;
-var<storage, read_write> partial_error: array<u32>; // of workgroups, in units of 1/ERROR_UNITS; zero between two uses
+var<storage, read_write> error_sum: array<u32>; // in units of error_unit(); zero between two uses
 var<storage, read_write> convergence: Convergence;
 
-var<workgroup> thread_error: array<f32, CHECK_THREADS>;
-var<workgroup> goes_on: u32;
-
-// Whether a loop has still something to do; every thread calls it.
-fn runs(which: u32, thread: u32) -> bool {
-    if thread == 0u {
-        goes_on = loop_dispatch[which].x;
-    }
-    return workgroupUniformLoad(&goes_on) != 0u;
+fn first_pass(which: u32) -> u32 {
+    return 2u * which;
 }
 
-fn begin_loop(which: u32, runs: bool) {
-    let most = dispatch[which].w;
+fn second_pass(which: u32) -> u32 {
+    return 2u * which + 1u;
+}
+
+fn begin_loop(which: u32) {
+    let runs = dispatch[DISPATCH_MOVING].x != 0u;
+    let most = dispatch[DISPATCH_MOVING].w;
     let groups = select(0u, (loop_count() + GROUP_SIZE - 1u) / GROUP_SIZE, runs);
-    loop_dispatch[which] = vec4u(min(groups, most), select(0u, (groups + most - 1u) / most, runs), u32(runs), most);
+    let all = vec4u(min(groups, most), select(0u, (groups + most - 1u) / most, runs), u32(runs), most);
+    loop_dispatch[first_pass(which)] = all;
+    loop_dispatch[second_pass(which)] = all;
     convergence.iteration = 0u;
 }
 
-// Mean error over all particles; every thread calls it.
-fn mean_error(thread: u32) -> f32 {
-    let groups = (loop_count() + GROUP_SIZE - 1u) / GROUP_SIZE;
-    var sum = 0.0;
-    for (var group = thread; group < groups; group += CHECK_THREADS) {
-        sum += f32(partial_error[group]) / ERROR_UNITS;
-        partial_error[group] = 0u;
+fn end(pass_number: u32) {
+    loop_dispatch[pass_number] = vec4u(0u, 0u, 0u, loop_dispatch[pass_number].w);
+}
+
+fn goes_on(which: u32) -> bool {
+    return loop_dispatch[first_pass(which)].x != 0u;
+}
+
+// Now and then in a loop's course, lets its checks run or no longer run.
+fn watch(which: u32) {
+    check_dispatch[which] = vec4u(u32(goes_on(which)), 1u, 1u, 0u);
+    if !goes_on(which) {
+        end(second_pass(which));
     }
-    thread_error[thread] = sum;
-    workgroupBarrier();
-    for (var reach = CHECK_THREADS / 2u; reach > 0u; reach /= 2u) {
-        if thread < reach {
-            thread_error[thread] += thread_error[thread + reach];
+}
+
+// What a check found.
+struct Found {
+    error: f32, // mean over the particles
+    is_last: bool, // the loop ends here
+    converged: bool,
+    iterations: u32, // that the loop has made then
+}
+
+// Looks at the errors behind a first pass, and ends the loop when they are small. It makes one iteration in any case; when that
+// would not have been needed, nothing is looked at behind it.
+fn check(which: u32, largest_error: f32, most_iterations: u32) -> Found {
+    let error = mean_error();
+    let done = convergence.iteration;
+    convergence.iteration = done + 1u;
+    let converged = error <= largest_error;
+    if converged {
+        end(first_pass(which));
+        if done > 0u {
+            end(second_pass(which));
         }
-        workgroupBarrier();
     }
-    return thread_error[0] / f32(max(parameters.free_count, 1u));
+    let made = max(done + u32(!converged), 1u);
+    return Found(error, converged || done + 1u >= most_iterations, converged, made);
+}
+
+// Mean error over all particles.
+fn mean_error() -> f32 {
+    var sum = 0.0;
+    for (var k = 0u; k < ERROR_SUMS; k++) {
+        sum += f32(error_sum[k]);
+        error_sum[k] = 0u;
+    }
+    return sum * error_unit() / f32(max(parameters.free_count, 1u));
 }
 
 // Of `dispatch` (gpu::Items): whether steps go on.
 const DISPATCH_MOVING: u32 = 6u;
 
-@compute @workgroup_size(CHECK_THREADS)
-fn begin_density_loop(@builtin(local_invocation_index) thread: u32) {
-    if thread == 0u {
-        begin_loop(DENSITY_LOOP, dispatch[DISPATCH_MOVING].x != 0u);
-    }
+@compute @workgroup_size(1)
+fn begin_density_loop() {
+    begin_loop(DENSITY_LOOP);
 }
 
-@compute @workgroup_size(CHECK_THREADS)
-fn begin_divergence_loop(@builtin(local_invocation_index) thread: u32) {
-    if thread == 0u {
-        begin_loop(DIVERGENCE_LOOP, dispatch[DISPATCH_MOVING].x != 0u);
-    }
+@compute @workgroup_size(1)
+fn begin_divergence_loop() {
+    begin_loop(DIVERGENCE_LOOP);
 }
 
-@compute @workgroup_size(CHECK_THREADS)
-fn check_density(@builtin(local_invocation_index) thread: u32) {
-    if !runs(DENSITY_LOOP, thread) {
+@compute @workgroup_size(1)
+fn watch_density_loop() {
+    watch(DENSITY_LOOP);
+}
+
+@compute @workgroup_size(1)
+fn watch_divergence_loop() {
+    watch(DIVERGENCE_LOOP);
+}
+
+@compute @workgroup_size(1)
+fn check_density() {
+    if !goes_on(DENSITY_LOOP) {
         return;
     }
-    let error = mean_error(thread);
-    if thread != 0u {
+    let found = check(DENSITY_LOOP, dfsph.density_error, dfsph.density_iterations);
+    if !found.is_last {
         return;
     }
-    let done = convergence.iteration;
-    let last = done + 1u >= dfsph.density_iterations;
-    let converged = error <= dfsph.density_error && done >= 1u;
-    convergence.iteration = done + 1u;
-    if !converged && !last {
-        return;
-    }
-    let made = done + u32(!converged);
     convergence.steps += 1u;
-    convergence.density_iterations += made;
-    convergence.most_density_iterations = max(convergence.most_density_iterations, made);
-    convergence.density_unconverged += u32(!converged);
-    convergence.density_error = max(convergence.density_error, error);
-    if converged {
-        loop_dispatch[DENSITY_LOOP] = vec4u(0u, 0u, 0u, loop_dispatch[DENSITY_LOOP].w);
-    }
+    convergence.density_iterations += found.iterations;
+    convergence.most_density_iterations = max(convergence.most_density_iterations, found.iterations);
+    convergence.density_unconverged += u32(!found.converged);
+    convergence.density_error = max(convergence.density_error, found.error);
 }
 
-@compute @workgroup_size(CHECK_THREADS)
-fn check_divergence(@builtin(local_invocation_index) thread: u32) {
-    if !runs(DIVERGENCE_LOOP, thread) {
+@compute @workgroup_size(1)
+fn check_divergence() {
+    if !goes_on(DIVERGENCE_LOOP) {
         return;
     }
-    let error = mean_error(thread);
-    if thread != 0u {
+    let found = check(DIVERGENCE_LOOP, dfsph.divergence_error, dfsph.divergence_iterations);
+    if !found.is_last {
         return;
     }
-    let done = convergence.iteration;
-    let last = done + 1u >= dfsph.divergence_iterations;
-    let converged = error <= dfsph.divergence_error && done >= 1u;
-    convergence.iteration = done + 1u;
-    if !converged && !last {
-        return;
-    }
-    let made = done + u32(!converged);
-    convergence.divergence_iterations += made;
-    convergence.most_divergence_iterations = max(convergence.most_divergence_iterations, made);
-    convergence.divergence_unconverged += u32(!converged);
-    convergence.divergence_error = max(convergence.divergence_error, error);
-    if converged {
-        loop_dispatch[DIVERGENCE_LOOP] = vec4u(0u, 0u, 0u, loop_dispatch[DIVERGENCE_LOOP].w);
-    }
+    convergence.divergence_iterations += found.iterations;
+    convergence.most_divergence_iterations = max(convergence.most_divergence_iterations, found.iterations);
+    convergence.divergence_unconverged += u32(!found.converged);
+    convergence.divergence_error = max(convergence.divergence_error, found.error);
 }

@@ -6,7 +6,7 @@
 
 // How particles go in this step, m/s; their positions after `move_fluid`.
 var<storage, read> next_position: array<Packed>;
-var<storage, read_write> pressure_point: array<Packed>;
+var<storage, read_write> acting_impulse: array<f32>;
 
 fn velocity_of(j: u32) -> Vector {
     return unpack(next_position[j]);
@@ -18,9 +18,8 @@ fn predict_density(thread: Thread) {
     if i >= loop_count() || is_wall(i) {
         return;
     }
-    let x = unpack(position[i]);
     let dt = time_step();
-    let excess = own[i].excess + dt * compression_rate(i, x);
-    pressure_point[i] = pack_with(x, iterate(i, excess / dt));
+    let excess = own[i].excess + dt * compression_rate(i);
+    acting_impulse[i] = iterate(i, excess / dt);
     add_error(thread, excess);
 }

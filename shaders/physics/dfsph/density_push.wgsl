@@ -1,22 +1,23 @@
 // What the impulses of the loop of density do to the way that particles go.
-#import common/thread
+#flag moves
+#import physics/time_step
 #import physics/dfsph/push
-#import physics/dfsph/own
 
+var<storage, read> position: array<Packed>; // w: what corrected density in the step before, as a pressure, Pa
+var<storage, read_write> acting_impulse: array<f32>; // Pa·s
 var<storage, read> next_velocity: array<Packed>;
 var<storage, read_write> next_position: array<Packed>;
 
-// Before the loop, particles go as their velocities say.
+// Before the loop, particles go as their velocities say, and what corrected density in the step before acts again.
 @compute @workgroup_size(GROUP_SIZE)
 fn follow_velocity(thread: Thread) {
     let i = item_index(thread);
-    if i >= parameters.particle_count {
-        return;
-    }
-    next_position[i] = next_velocity[i];
     if i < loop_count() && !is_wall(i) {
-        own[i].impulse = 0.0;
-        own[i].previous = 0.0;
+        let impulse = dfsph.warm_correction * time_step() * number_of(position[i]);
+        next_position[i] = next_velocity[i];
+        acting_impulse[i] = impulse;
+        own[i].impulse = impulse;
+        own[i].previous = impulse;
     }
 }
 

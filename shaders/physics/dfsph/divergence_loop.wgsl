@@ -4,7 +4,7 @@
 #import physics/dfsph/solve
 
 var<storage, read> next_velocity: array<Packed>;
-var<storage, read_write> pressure_point: array<Packed>;
+var<storage, read_write> acting_impulse: array<f32>;
 
 fn velocity_of(j: u32) -> Vector {
     return unpack(next_velocity[j]);
@@ -20,9 +20,8 @@ fn find_divergence(thread: Thread) {
     if i >= loop_count() || is_wall(i) {
         return;
     }
-    let x = unpack(position[i]);
     let dt = time_step();
-    let rate = compression_rate(i, x) + min(own[i].excess + SLACK, 0.0) / dt;
-    pressure_point[i] = pack_with(x, iterate(i, rate));
+    let rate = compression_rate(i) + min(own[i].excess + SLACK, 0.0) / dt;
+    acting_impulse[i] = iterate(i, rate);
     add_error(thread, rate * dt);
 }

@@ -2,8 +2,8 @@
 #flag moves
 #import physics/time_step
 #import physics/dfsph/push
-#import physics/dfsph/own
 
+var<storage, read> acting_impulse: array<f32>; // Pa·s
 var<storage, read_write> next_velocity: array<Packed>; // w: pressure, Pa
 
 @compute @workgroup_size(GROUP_SIZE)

@@ -6,6 +6,13 @@
 #import physics/fluid/state
 #import physics/dfsph/loop
 #import physics/dfsph/own
+#import physics/dfsph/pair_list
+
+var<storage, read_write> pair_list: array<Pair>;
+
+#if boundary_particles
+var<storage, read_write> wall_pull: array<Packed>; // physics/dfsph/pairs
+#end
 
 // Below this diagonal, in units of 1/spacing², a particle is alone, and pressure has nothing to act on.
 const LONELY: f32 = 1e-4;
@@ -20,23 +27,38 @@ fn find_density(thread: Thread) {
     var sum = kernel(0.0);
     var slopes = Vector(0.0); // 1/m
     var squares = 0.0; // of those that pressure can move, 1/m²
+#if boundary_particles
+    var pull = Vector(0.0);
+    var approach = 0.0;
+#end
     let home = around(i, x);
     for (var k = 0u; k < RANGES; k++) {
         let range = candidate_range(home, k);
-        for (var slot = range.x; slot < range.y; slot++) {
+        for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
             let s = toward(x, j);
             let r = length(s);
             sum += kernel(r);
-            let slope = (-fluid.volume * kernel_slope(r)) * s;
+            let slope = (fluid.volume * kernel_slope(r)) * s;
             slopes += slope;
-            squares += select(dot(slope, slope), 0.0, is_wall(j));
+#if boundary_particles
+            if k == 1u {
+                pull += slope;
+                approach += dot(unpack(velocity[j]), slope);
+                continue;
+            }
+#end
+            squares += dot(slope, slope);
+            pair_list[pair_row(i) + slot - range.x] = pack_pair(j, slope / dfsph.steepest);
         }
     }
     let diagonal = dot(slopes, slopes) + squares;
     let excess = fluid.volume * sum - 1.0;
-    let pressure = velocity[i].w;
+    let pressure = number_of(velocity[i]);
     let response = select(fluid.density / diagonal, 0.0, diagonal * fluid.spacing * fluid.spacing < LONELY);
+#if boundary_particles
+    wall_pull[i] = pack_with(pull, approach);
+#end
     own[i] = Own(excess, 0.0, response, 0.0);
     fluid_state[i] = vec2f(excess, pressure);
 }

@@ -26,13 +26,19 @@ struct Dfsph {
     relaxation: f32, // of Jacobi's iteration
     momentum: f32, // share of an iteration's step that the next one goes on with
     warm_start: f32, // share of the last step's pressures that a step begins with
+    warm_correction: f32, // the same of what corrected densities
+    steepest: f32, // largest gradient of the kernel times a particle's volume, 1/m
 }
 
 var<uniform> dfsph: Dfsph;
 
-// Errors are added as whole numbers of 2⁻²⁴; those of a workgroup must stay below 2³².
-const ERROR_UNITS: f32 = 16777216.0;
-const LARGEST_ERROR: f32 = 256.0 / f32(GROUP_SIZE + 1u);
+// Errors are added as whole numbers of a unit, in so many sums (physics::dfsph), which stay below 2³².
+const LARGEST_ERROR: f32 = 3.0;
+
+fn error_unit() -> f32 {
+    let groups_per_sum = (loop_count() / GROUP_SIZE) / ERROR_SUMS + 1u;
+    return f32(groups_per_sum * GROUP_SIZE) * (LARGEST_ERROR / 4e9);
+}
 
 const DENSITY_LOOP: u32 = 0u;
 const DIVERGENCE_LOOP: u32 = 1u;

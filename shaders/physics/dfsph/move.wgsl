@@ -6,6 +6,8 @@
 #import physics/guard
 #import physics/fluid/walls
 #import cells/images
+#import physics/dfsph/loop
+#import physics/dfsph/own
 #if faces
 #import physics/fluid/coefficients
 #import physics/fluid/rim
@@ -16,18 +18,18 @@
 
 var<storage, read> position: array<Packed>;
 var<storage, read> id: array<u32>;
-var<storage, read_write> next_position: array<Packed>; // before, how the particle goes, m/s
+var<storage, read_write> next_position: array<Packed>; // before, how the particle goes, m/s; w: impulse that corrected it, as a pressure
 var<storage, read_write> next_velocity: array<Packed>;
 var<storage, read_write> next_id: array<u32>;
 
 @compute @workgroup_size(GROUP_SIZE)
 fn move_fluid(thread: Thread) {
     let i = item_index(thread);
-    if i >= parameters.particle_count || is_wall(i) {
+    if i >= loop_count() || is_wall(i) {
         return;
     }
     let x = unpack(position[i]);
-    let pressure = next_velocity[i].w;
+    let pressure = number_of(next_velocity[i]);
     var v = unpack(next_velocity[i]);
     var moved = wrapped(x + time_step() * unpack(next_position[i]));
 #if faces
@@ -46,7 +48,7 @@ fn move_fluid(thread: Thread) {
 #end
 #end
     watch(id[i], x, &moved, &v);
-    next_position[i] = pack(moved);
+    next_position[i] = pack_with(moved, own[i].impulse / time_step());
     next_velocity[i] = pack_with(v, pressure);
     next_id[i] = id[i];
 #if adaptive_step

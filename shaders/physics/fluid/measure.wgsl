@@ -28,7 +28,7 @@ fn measure_fluid(thread: Thread) {
         var reached = 0u;
         for (var k = 0u; k < RANGES; k++) {
             let range = candidate_range(home, k);
-            for (var slot = range.x; slot < range.y; slot++) {
+            for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
                 let j = candidate(slot);
                 reached += select(0u, 1u, within(toward(x, j), fluid.support) && j != i);
             }

@@ -25,7 +25,7 @@ fn find_stress(thread: Thread) {
     let home = around(i, x);
     for (var k = 0u; k < RANGES; k++) {
         let range = candidate_range(home, k);
-        for (var slot = range.x; slot < range.y; slot++) {
+        for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
             let s = toward(x, j);
             if within(s, fluid.support) && j != i {

@@ -4,6 +4,7 @@
 #import common/reach
 #import physics/present
 #import storage/lists/state
+#import storage/lists/row
 #import cells/images
 #import physics/fluid/walls
 #import <storage>
@@ -13,19 +14,29 @@ var<storage, read_write> neighbor_list: array<u32>;
 var<storage, read_write> listed_position: array<Packed>;
 #end
 
-// Lists those of a range that are near y, behind `count` others; returns how many they are then.
-fn list_range(i: u32, wall: bool, y: Vector, range: vec2u, count: u32) -> u32 {
+// Lists those of a range that are near y, beside `count` others; returns how many they are then. In y those are counted that
+// stand at the end of the row.
+fn list_range(i: u32, wall: bool, y: Vector, range: vec2u, count: vec2u) -> vec2u {
     var found = count;
-    let first_slot = i * (grid.list_capacity + 1u) + 1u;
-    for (var slot = range.x; slot < range.y; slot++) {
+    let row = list_row(i);
+    for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
         let j = candidate(slot);
         // Boundary particles ask for the fluid only.
         let wanted = j != i && !(wall && is_wall(j));
         if wanted && within(unpack(position[j]) - y, grid.list_reach) {
-            if found < grid.list_capacity {
-                neighbor_list[first_slot + found] = j;
+#if walls_apart
+            let behind = is_wall(j);
+            let place = select(found.x, grid.list_capacity - 1u - found.y, behind);
+            if found.x + found.y < grid.list_capacity {
+                neighbor_list[row + (LIST_HEAD + place) * LIST_LANES] = j;
             }
-            found += 1u;
+            found += vec2u(u32(!behind), u32(behind));
+#else
+            if found.x < grid.list_capacity {
+                neighbor_list[row + (LIST_HEAD + found.x) * LIST_LANES] = j;
+            }
+            found.x += 1u;
+#end
         }
     }
     return found;
@@ -44,9 +55,8 @@ fn list_candidates(thread: Thread) {
         return;
     }
 #end
-    let row = i * (grid.list_capacity + 1u);
     let second = second_row();
-    var count = 0u;
+    var count = vec2u(0u);
     for (var number = 0u; number < IMAGES; number++) {
         var y: Vector;
         if !image(x, number, grid.list_reach, &y) {
@@ -66,8 +76,13 @@ fn list_candidates(thread: Thread) {
 #if !lists_every_step
     listed_position[i] = pack(x);
 #end
-    neighbor_list[row] = min(count, grid.list_capacity);
-    if count > atomicLoad(&list_state.longest) {
-        atomicMax(&list_state.longest, count);
+    let row = list_row(i);
+    neighbor_list[row] = min(count.x, grid.list_capacity);
+#if walls_apart
+    neighbor_list[row + LIST_LANES] = min(count.y, grid.list_capacity - min(count.x, grid.list_capacity));
+#end
+    let length = count.x + count.y;
+    if length > atomicLoad(&list_state.longest) {
+        atomicMax(&list_state.longest, length);
     }
 }

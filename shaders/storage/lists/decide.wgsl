@@ -19,12 +19,18 @@ var<storage, read_write> search_dispatch: vec4u;
 
 // Has a kind of passes run over all particles, or over none.
 fn set_particles(which: u32, all: bool) {
-    let particles = dispatch[DISPATCH_PARTICLES];
+    let particles = dispatch[select(DISPATCH_PARTICLES, DISPATCH_FREE, which >= DISPATCH_FREE)];
     dispatch[which] = select(vec4u(0u, 0u, 0u, particles.w), particles, all);
+}
+
+fn set_moving(moves: bool) {
+    set_particles(DISPATCH_MOVING, moves);
+    set_particles(DISPATCH_MOVING_FREE, moves);
 }
 
 fn set_search(runs: bool) {
     set_particles(DISPATCH_SEARCHED, runs);
+    set_particles(DISPATCH_SEARCHED_FREE, runs);
     search_dispatch = vec4u(u32(runs), 1u, 1u, 0u);
 }
 
@@ -67,7 +73,7 @@ fn decide_search() {
     list_state.searches += u32(due);
     set_search(due);
     set_particles(DISPATCH_KEPT, !due);
-    set_particles(DISPATCH_MOVING, goes_on && returned);
+    set_moving(goes_on && returned);
     set_particles(DISPATCH_RETURNING, goes_on && !returned);
     set_particles(DISPATCH_AWAY, !due && !returned);
     set_particles(DISPATCH_RETURNED, due && returned);

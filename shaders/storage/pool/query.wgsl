@@ -30,6 +30,9 @@ fn range_pair(home: Coordinate, k: u32, second: u32) -> vec4u {
     return vec4u(candidate_range(home, k), 0u, 0u);
 }
 
+// From one slot of a range to the next.
+const SLOT_STEP: u32 = 1u;
+
 // The particle in a slot.
 fn candidate(slot: u32) -> u32 {
     return index_pool[slot];

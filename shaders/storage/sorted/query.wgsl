@@ -44,6 +44,9 @@ fn range_pair(home: Coordinate, k: u32, second: u32) -> vec4u {
     return pair;
 }
 
+// From one slot of a range to the next.
+const SLOT_STEP: u32 = 1u;
+
 // The particle in a slot.
 fn candidate(slot: u32) -> u32 {
     return slot;

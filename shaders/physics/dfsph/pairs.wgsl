@@ -1,0 +1,22 @@
+// What the loops go over: a particle's pairs, without boundary particles, whose part is the same in every iteration.
+#import common/thread
+#import common/parameters
+#import physics/fluid/walls
+#import physics/dfsph/loop
+#import physics/dfsph/own
+#import physics/dfsph/pair_list
+#import storage/lists/row
+
+var<storage, read> id: array<u32>;
+var<storage, read> neighbor_list: array<u32>;
+var<storage, read> pair_list: array<Pair>;
+#if boundary_particles
+// Sum of the gradients at boundary particles, 1/m; w: the rate at which their velocities press the fluid together, 1/s.
+var<storage, read> wall_pull: array<Packed>;
+#end
+
+// First pair of particle i, and the first one behind. From one to the next are LIST_LANES.
+fn pairs_of(i: u32) -> vec2u {
+    let row = pair_row(i);
+    return vec2u(row, row + neighbor_list[list_row(i)] * LIST_LANES);
+}
