@@ -130,7 +130,7 @@ fn long_frames_resume_to_the_same_bytes() {
     );
     let told = place.told(&mut place.sliceflow(&["resume", "run"]), 0);
     assert!(
-        told.contains(&format!("going on behind frame {}", frames - 1)),
+        told.contains(&format!("going on after frame {}", frames - 1)),
         "{told}"
     );
     place.assert_same("whole", "run", "a run that was interrupted");

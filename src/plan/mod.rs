@@ -185,7 +185,7 @@ impl Plan {
         for row in &mut plan.passes {
             let of = |pass: &PassPlan| (pass.shader.clone(), pass.entry.clone());
             let known = self.passes.iter().find(|known| of(&known.pass) == of(&row.pass));
-            row.demand = known.map_or_else(Demand::default, |known| known.demand.clone());
+            row.demand = known.map_or_else(Demand::default, |known| known.demand);
         }
         plan.draws.clone_from(&self.draws);
         plan.lists_left_out.clone_from(&self.lists_left_out);

@@ -32,7 +32,7 @@ pub fn convert(
         bodies.extend(fluid::model(peer, model, files, ignored)?);
     }
     if !bodies.is_empty() {
-        notes.push(fluid::NOTE.into());
+        notes.push(fluid::note(peer).into());
     }
     let Obstacles {
         colliders,

@@ -12,9 +12,38 @@ use crate::scene::mesh::Mesh;
 use crate::scene::{Dimensions, particle_file};
 
 /// Plain words for the user.
-pub const NOTE: &str = "fluid becomes a weakly compressible fluid of the same spacing and density, with the viscosity of \
-                        water and some artificial viscosity: coefficients of the peer's viscosity methods have no \
-                        counterpart";
+pub fn note(peer: &Peer) -> &'static str {
+    match solver(peer) {
+        Solver::Dfsph => {
+            "fluid becomes a fluid of the solver `dfsph` of the same spacing and density, with the viscosity of water: \
+             coefficients of the peer's viscosity methods have no counterpart"
+        }
+        Solver::Wcsph => {
+            "fluid becomes a weakly compressible fluid of the same spacing and density, with the viscosity of water and \
+             some artificial viscosity: coefficients of the peer's viscosity methods have no counterpart"
+        }
+        Solver::WcsphForSeveral => {
+            "fluids become weakly compressible ones of the same spacing and densities, with the viscosity of water and some \
+             artificial viscosity: `dfsph` has one fluid only, and coefficients of the peer's viscosity methods have no \
+             counterpart"
+        }
+    }
+}
+
+enum Solver {
+    Dfsph,
+    Wcsph,
+    /// Where the peer's solver keeps several fluids incompressible.
+    WcsphForSeveral,
+}
+
+fn solver(peer: &Peer) -> Solver {
+    match (peer.is_incompressible, used(peer).len()) {
+        (false, _) => Solver::Wcsph,
+        (true, 0 | 1) => Solver::Dfsph,
+        (true, _) => Solver::WcsphForSeveral,
+    }
+}
 
 /// Of water, Pa·s.
 const VISCOSITY: f64 = 1e-3;
@@ -37,8 +66,13 @@ fn used(peer: &Peer) -> Vec<&str> {
 
 /// The scene's `fluid`.
 pub fn substance(peer: &Peer, ignored: &mut Vec<Ignored>) -> Value {
+    let is_dfsph = matches!(solver(peer), Solver::Dfsph);
+    let why = match is_dfsph {
+        true => "the step follows from the fluid's speed",
+        false => "the step follows from the speed of sound",
+    };
     for (path, _) in &peer.time_step {
-        ignored.push(Ignored::new(path, "the step follows from the speed of sound"));
+        ignored.push(Ignored::new(path, why));
     }
     let used = used(peer);
     for material in &peer.materials {
@@ -54,8 +88,15 @@ pub fn substance(peer: &Peer, ignored: &mut Vec<Ignored>) -> Value {
         "spacing": 2.0 * peer.radius,
         "density": used.first().map_or(DENSITY, |id| density(id)),
         "viscosity": VISCOSITY,
-        "artificial_viscosity": ARTIFICIAL_VISCOSITY,
     });
+    if is_dfsph {
+        fluid["solver"] = "dfsph".into();
+        if let Some(error) = peer.density_error {
+            fluid["max_density_error"] = (error / 100.0).clamp(1e-6, 0.1).into();
+        }
+    } else {
+        fluid["artificial_viscosity"] = ARTIFICIAL_VISCOSITY.into();
+    }
     if used.len() > 1 {
         let material = |id: &&str| json!({ "name": id, "density": density(id), "viscosity": VISCOSITY });
         fluid["materials"] = used.iter().map(material).collect();

@@ -6,6 +6,7 @@ use serde_json::json;
 use super::*;
 use crate::scene::ColliderShape;
 use crate::scene::mesh::samples::cube;
+use crate::scene::model::FluidSolver;
 
 /// A folder with the meshes `box.obj` (a cube of side 1), `wedge.obj` (half of it) and a scene.
 fn folder(scene: &Value) -> (tempfile::TempDir, PathBuf) {
@@ -98,12 +99,11 @@ fn a_cubic_metre_gives_as_many_particles_as_there() {
     assert_eq!(scene.file.render.color.range, Some([0.0, 4.0]));
     let fluid = scene.fluid().unwrap();
     assert_eq!((fluid.spacing, fluid.materials.len()), (0.05, 1));
-    assert!(
-        imported
-            .notes
-            .iter()
-            .any(|note| note.contains("weakly compressible"))
+    assert_eq!(
+        (fluid.solver, fluid.max_density_error),
+        (FluidSolver::Dfsph, 0.0005)
     );
+    assert!(imported.notes.iter().any(|note| note.contains("solver `dfsph`")));
 }
 
 #[test]
@@ -135,6 +135,26 @@ fn the_box_around_the_fluid_is_the_domain_and_other_bodies_stand_where_they_did(
 }
 
 #[test]
+fn the_solver_follows_the_peers() {
+    for (method, solver) in [
+        (0, FluidSolver::Wcsph),
+        (3, FluidSolver::Dfsph),
+        (4, FluidSolver::Dfsph),
+    ] {
+        let mut scene = dam();
+        scene["Configuration"]["simulationMethod"] = method.into();
+        let (folder, path) = folder(&scene);
+        let imported = import(&path, Some(folder.path())).unwrap();
+        assert_eq!(imported.scene.fluid().unwrap().solver, solver, "{method}");
+        // What the peer's other solvers stop at says nothing about this one.
+        let has_effect = !ignored(&imported)
+            .iter()
+            .any(|path| path == "Configuration.DFSPH");
+        assert_eq!(has_effect, method == 4, "{method}");
+    }
+}
+
+#[test]
 fn what_has_no_effect_is_listed_by_its_place() {
     let (folder, path) = folder(&dam());
     let imported = import(&path, Some(folder.path())).unwrap();
@@ -144,7 +164,6 @@ fn what_has_no_effect_is_listed_by_its_place() {
         found,
         [
             "AnimationFields",
-            "Configuration.DFSPH",
             "Configuration.timeStepSize",
             "Materials[0].viscosityMethod",
             "RigidBodies[0].mapResolution",
