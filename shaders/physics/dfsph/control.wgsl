@@ -52,8 +52,8 @@ struct Found {
     iterations: u32, // that the loop has made then
 }
 
-// Looks at the errors behind a first pass, and ends the loop when they are small. It makes one iteration in any case; when that
-// would not have been needed, nothing is looked at behind it.
+// Looks at the errors that a first pass found, and ends the loop when they are small. One iteration is made in any case; where
+// it was not needed, no second look follows.
 fn check(which: u32, largest_error: f32, most_iterations: u32) -> Found {
     let error = mean_error();
     let done = convergence.iteration;

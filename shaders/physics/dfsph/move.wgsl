@@ -18,7 +18,8 @@
 
 var<storage, read> position: array<Packed>;
 var<storage, read> id: array<u32>;
-var<storage, read_write> next_position: array<Packed>; // before, how the particle goes, m/s; w: impulse that corrected it, as a pressure
+// Before, how the particle goes, m/s; then its position, and in w the impulse that corrected it, as a pressure, Pa.
+var<storage, read_write> next_position: array<Packed>;
 var<storage, read_write> next_velocity: array<Packed>;
 var<storage, read_write> next_id: array<u32>;
 
