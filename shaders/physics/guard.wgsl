@@ -1,21 +1,19 @@
-// Catches a particle that became non-finite, left a closed domain or is faster than its model allows, stops it, and keeps the first one's story.
+// Catches a particle that became non-finite or left a closed domain, stops it, and keeps the first one's story.
 #import common/vector
 
 struct Guard {
     lower: vec4f, // m; where a particle counts as lost, far away on open sides
     upper: vec4f,
-    fastest: vec4f, // in x: m/s, what no particle of a sound run reaches
     position: vec4f, // of the first particle caught, m
     velocity: vec4f, // m/s
     id: u32,
     step: u32, // advance_clock.wgsl sets it
-    kind: u32, // 1: not finite, 2: lost, 3: too fast
+    kind: u32, // 1: not finite, 2: lost
     count: atomic<u32>, // catches in all
 }
 
 const GUARD_NOT_FINITE: u32 = 1u;
 const GUARD_LOST: u32 = 2u;
-const GUARD_TOO_FAST: u32 = 3u;
 
 var<storage, read_write> guard: Guard;
 
@@ -28,14 +26,12 @@ fn is_finite(v: Vector) -> bool {
 // `moved` and `velocity` are what the step wants; on an accident the particle stays where it was, at rest.
 fn watch(particle: u32, before: Vector, moved: ptr<function, Vector>, velocity: ptr<function, Vector>) {
     let finite = is_finite(*moved) && is_finite(*velocity);
-    let kept = all(*moved >= first(guard.lower)) && all(*moved <= first(guard.upper));
-    let slow = length(*velocity) <= guard.fastest.x;
-    if finite && kept && slow {
+    if finite && all(*moved >= first(guard.lower)) && all(*moved <= first(guard.upper)) {
         return;
     }
     if atomicAdd(&guard.count, 1u) == 0u {
         guard.id = particle;
-        guard.kind = select(select(GUARD_LOST, GUARD_TOO_FAST, kept), GUARD_NOT_FINITE, !finite);
+        guard.kind = select(GUARD_LOST, GUARD_NOT_FINITE, !finite);
         guard.position = vec4f(to_3d(before), 0.0);
         guard.velocity = vec4f(to_3d(*velocity), 0.0);
     }

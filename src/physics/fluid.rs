@@ -243,15 +243,6 @@ pub fn plan(
     solver
 }
 
-/// What no particle of a sound run reaches, m/s: the speed of sound of a weakly compressible fluid, whose equations hold far
-/// below it. Nothing else has such a speed.
-pub fn fastest(scene: &Scene) -> f32 {
-    match scene.fluid() {
-        Some(fluid) if fluid.solver == FluidSolver::Wcsph => fluid.sound_speed as f32,
-        _ => f32::MAX,
-    }
-}
-
 /// The fluid's numbers for the shaders.
 pub fn coefficients(scene: &Scene, fluid: &scene::fluid::Fluid) -> Fluid {
     let dimensions = scene.dimensions.count();

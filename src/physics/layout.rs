@@ -98,15 +98,13 @@ shared_struct! {
         /// Metres; beyond it a particle is lost.
         pub lower: [f32; 4],
         pub upper: [f32; 4],
-        /// First component: m/s, what no particle of a sound run reaches.
-        pub fastest: [f32; 4],
         /// Of the first particle caught, metres.
         pub position: [f32; 4],
         /// m/s.
         pub velocity: [f32; 4],
         pub id: u32,
         pub step: u32,
-        /// 1: not finite, 2: lost, 3: too fast.
+        /// 1: not finite, 2: lost.
         pub kind: u32,
         pub count: u32,
     }

@@ -4,7 +4,6 @@ use glam::Vec3;
 
 use super::Simulation;
 use crate::error::{Casualty, Error};
-use crate::physics::fluid;
 use crate::physics::layout::{Guard, Pace};
 
 impl Simulation {
@@ -15,12 +14,12 @@ impl Simulation {
         let position = local.as_dvec3() + self.scene.origin;
         let velocity = [guard.velocity[0], guard.velocity[1], guard.velocity[2]];
         let speed = velocity.iter().map(|v| v * v).sum::<f32>().sqrt();
-        let is_fluid = self.scene.fluid().is_some();
+        let fluid = self.scene.fluid().is_some();
         let radii = f64::from(speed) * place.step / self.scene.radius();
         let (what, likely_cause) = match guard.kind {
             1 => (
                 "a particle's position or velocity is not a finite number",
-                if is_fluid {
+                if fluid {
                     format!(
                         "the time step of {:.3e} s is too long for the fluid's speed; raise fluid.max_speed or lower \
                          time.step",
@@ -34,22 +33,13 @@ impl Simulation {
                     )
                 },
             ),
-            3 => (
-                "a particle became faster than sound in its fluid",
-                format!(
-                    "it moved at {speed:.3} m/s, and the fluid's speed of sound is {:.3} m/s, as fluid.max_speed or \
-                     fluid.sound_speed say: the run has become unstable, or something hits the fluid harder than expected; \
-                     raise fluid.max_speed, lower time.step, or clamp negative pressures",
-                    fluid::fastest(&self.scene)
-                ),
-            ),
             _ => (
                 "a particle left the domain through a closed side",
                 format!(
                     "it moved {radii:.2} radii in a step of {:.3e} s, or was pressed through the wall; \
                      {}, lower time.step, or open that side",
                     place.step,
-                    if is_fluid {
+                    if fluid {
                         "raise fluid.max_speed"
                     } else {
                         "raise grains.spring"

@@ -182,7 +182,6 @@ impl Simulation {
         let guard = Guard {
             lower,
             upper,
-            fastest: [fluid::fastest(scene), 0.0, 0.0, 0.0],
             step: u32::MAX,
             ..Default::default()
         };
