@@ -66,8 +66,10 @@ fn assert_same(one: &[Frame], two: &[Frame], what: &str) {
 
 /// The limit that leaves room for lists of so many neighbors, and for no more.
 fn room_for_lists(scene: &Scene, length: u32) -> String {
-    // A row begins with the number of neighbors.
-    format!("binding={}", 4 * scene.capacity * (length + 1))
+    format!(
+        "binding={}",
+        sliceflow::neighbors::lists::buffers(scene, length)[0].bytes
+    )
 }
 
 #[test]
