@@ -42,7 +42,9 @@ fn every_particle_is_in_a_box_and_in_the_map() {
         for addressing in ADDRESSINGS.iter().map(|row| row.name) {
             for storage in STORAGES.iter().map(|row| row.name) {
                 for axis in ["x", "y", "z"] {
-                    if dimensions == 2 && axis == "z" {
+                    // Which way slices lie is nothing to how voxels keep particles.
+                    let turns = storage == STORAGES[0].name;
+                    if dimensions == 2 && axis == "z" || !turns && axis != "y" {
                         continue;
                     }
                     let what = format!("{addressing}-{storage} across {axis} in {dimensions}D");
