@@ -339,7 +339,7 @@ fn files_that_exist_are_kept() {
 }
 
 #[test]
-fn mistakes_are_told_with_place_and_mend() {
+fn mistakes_are_reported_with_place_and_help() {
     let folder = tempfile::tempdir().unwrap();
     let text = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (good, broken) = (text("good.csv"), text("broken.csv"));
@@ -352,7 +352,7 @@ fn mistakes_are_told_with_place_and_mend() {
         (vec![&*good, "--radius=-1"], "radius is -1"),
         (vec![&*good, "--radius", "inf"], "radius is inf"),
         (vec![&*good, "--radius", "1", "--dimensions", "3"], "z is missing"),
-        (vec![&*good, "--radius", "1", "--grid", "sliced"], "no grid"),
+        (vec![&*good, "--radius", "1", "--grid", "sliced"], "is not a grid"),
         (
             vec![&*good, "--radius", "1", "--grid", "sliced-pol"],
             "there is counting, pool",
