@@ -154,7 +154,7 @@ fn a_grid_that_grows_goes_on() {
     for addressing in ["sliced", "rows", "bitmap"] {
         let (position, velocity) = common::burst(3, 150);
         let grid = format!("neighbors.addressing={addressing}");
-        let scene = common::open_scene(3, &[&grid, "time.fps=60"], position, velocity);
+        let scene = common::open_scene(3, &[&grid], position, velocity);
         let whole = frames(&mut common::simulate(&scene, &wanted()), 6);
         let growths = |frames: &[Frame]| frames.iter().map(|frame| frame.growths).sum::<u32>();
         assert!(growths(&whole[..=3]) > 0, "{addressing}");
