@@ -285,7 +285,7 @@ fn a_part_runs_alone() {
         assert_eq!(json[other], Value::Null, "{other}");
     }
     assert!(
-        page.contains("## Frames a second") && !page.contains("## What repeatable"),
+        page.contains("## Frames per second") && !page.contains("## What repeatable"),
         "{page}"
     );
 
