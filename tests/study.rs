@@ -170,7 +170,7 @@ fn harada_has_a_page_with_the_same_figures_as_its_json() {
     let large = json["figure_8_memory"].as_array().expect("rows");
     let bytes = |name: &str| {
         let row = large.iter().find(|row| row["addressing"] == name).expect(name);
-        row["four indices a voxel"].as_f64().expect("bytes")
+        row["four indices per voxel"].as_f64().expect("bytes")
     };
     assert_eq!(bytes("`uniform`"), 43.0 * 43.0 * 16.0 * 16.0);
     assert!(bytes("`sliced`") < bytes("`uniform`") / 4.0);
