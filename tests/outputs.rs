@@ -289,7 +289,7 @@ fn a_peers_scene_is_imported_and_runs() {
     let text = told(&mut import(&to_file), 0);
     for wanted in [
         "ignored: Configuration.maxError",
-        "becomes a weakly compressible fluid",
+        "becomes a fluid of the solver `dfsph`",
         "imported 64 particles",
     ] {
         assert!(text.contains(wanted), "{wanted}: {text}");

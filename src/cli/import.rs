@@ -13,7 +13,7 @@ use crate::scene::import::import;
 ///
 /// Reads FluidBlocks, FluidModels, RigidBodies (as obstacles that rest, or as the domain's box), Materials,
 /// gravity, times and camera, and lists every key that has no effect. Fluid becomes a
-/// weakly compressible fluid (`wcsph`) of the same spacing and density.
+/// fluid of the same spacing and density: of `dfsph` where its solver keeps densities constant, else of `wcsph`.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
