@@ -128,6 +128,33 @@ fn a_block_in_free_flight_keeps_its_momentum() {
     }
 }
 
+/// Each kind of viscosity by itself damps what a fluid without any keeps.
+#[test]
+fn viscosities_damp() {
+    let energy = |viscosity: &str, artificial: &str| {
+        let mut scene = dfsph(
+            2,
+            &[
+                "colliders=[]",
+                "domain.walls=open",
+                "gravity=[0,0]",
+                viscosity,
+                artificial,
+            ],
+        );
+        for (k, v) in scene.particles.velocity.iter_mut().enumerate() {
+            *v = 0.2 * Vec3::new((1.7 * k as f32).sin(), (2.3 * k as f32).cos(), 0.0);
+        }
+        let last = frames(&scene, 1).1.pop().expect("frames");
+        last.statistics.expect("statistics").kinetic_energy
+    };
+    let free = energy("fluid.viscosity=0", "fluid.artificial_viscosity=0");
+    let viscous = energy("fluid.viscosity=5", "fluid.artificial_viscosity=0");
+    let artificial = energy("fluid.viscosity=0", "fluid.artificial_viscosity=0.5");
+    assert!(viscous < 0.9 * free, "{viscous} J, {free} J without");
+    assert!(artificial < 0.9 * free, "{artificial} J, {free} J without");
+}
+
 #[test]
 fn every_grid_gives_the_same_flow() {
     let place = |grid: &[&str]| {

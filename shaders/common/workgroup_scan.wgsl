@@ -1,7 +1,7 @@
 // Prefix sum over one workgroup of SCAN_THREADS threads.
 
-// Threads whose values one thread sums up. Each takes RAKE values by itself: a few serial sums need four barriers where a tree
-// needs seventeen, and barriers are what software adapters are slowest at.
+// Threads whose values one thread sums up. Each takes RAKE values by itself: a few serial sums need four barriers where
+// doubling (Hillis and Steele 1986) needs eighteen, and barriers are what software adapters are slowest at.
 const RAKE: u32 = 16u;
 
 var<workgroup> scan_shared: array<u32, SCAN_THREADS>;
