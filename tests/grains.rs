@@ -351,24 +351,22 @@ fn grains_rest_on_every_kind_of_obstacle() {
 
 #[test]
 fn every_variant_of_the_shaders_runs_on_the_adapter() {
-    // Drivers compile each variant anew, and some stumble over one of them.
+    // Drivers compile each variant anew, and some stumble over one of them. Every other one has obstacles.
     for dimensions in [2, 3] {
         for integrator in ["symplectic_euler", "velocity_verlet"] {
-            for walls in ["contact", "clamp", "open"] {
-                for (name, law) in LAWS {
-                    for colliders in [true, false] {
-                        let mut overrides = vec![format!("time.integrator={integrator}"), law.to_string()];
-                        overrides.push(format!("domain.walls={walls}"));
-                        if !colliders {
-                            overrides.push("colliders=[]".into());
-                        }
-                        let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
-                        let scene = common::scene(dimensions, &overrides).with_steps_per_frame(2);
-                        let frame = run(&scene, 1).unwrap_or_else(|error| {
-                            panic!("{dimensions}D, {integrator}, {walls}, {name}: {error}")
-                        });
-                        assert!(frame.statistics.unwrap().kinetic_energy > 0.0);
+            for (row, walls) in ["contact", "clamp", "open"].into_iter().enumerate() {
+                for (column, (name, law)) in LAWS.iter().enumerate() {
+                    let mut overrides = vec![format!("time.integrator={integrator}"), law.to_string()];
+                    overrides.push(format!("domain.walls={walls}"));
+                    if (row + column) % 2 == 1 {
+                        overrides.push("colliders=[]".into());
                     }
+                    let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
+                    let scene = common::scene(dimensions, &overrides).with_steps_per_frame(2);
+                    let frame = run(&scene, 1).unwrap_or_else(|error| {
+                        panic!("{dimensions}D, {integrator}, {walls}, {name}: {error}")
+                    });
+                    assert!(frame.statistics.unwrap().kinetic_energy > 0.0);
                 }
             }
         }

@@ -75,12 +75,27 @@ fn brute_force(points: &[Vec3], radius: f32) -> (Vec<u64>, Vec<u32>) {
 
 /// Compares all grids and slicing axes on a point set.
 fn check(what: &str, dimensions: usize, points: &[Vec3]) {
+    check_grids(what, dimensions, points, &grids());
+}
+
+/// The same with storages in turn, for what depends on how voxels are addressed alone.
+fn check_addressings(what: &str, dimensions: usize, points: &[Vec3]) {
+    let storages = STORAGES.iter().cycle();
+    let grids: Vec<_> = ADDRESSINGS
+        .iter()
+        .zip(storages)
+        .map(|(addressing, storage)| (addressing.name, storage.name))
+        .collect();
+    check_grids(what, dimensions, points, &grids);
+}
+
+fn check_grids(what: &str, dimensions: usize, points: &[Vec3], grids: &[(&str, &str)]) {
     let axes: &[&str] = if dimensions == 2 {
         &["x", "y"]
     } else {
         &["x", "y", "z"]
     };
-    for grid in grids() {
+    for &grid in grids {
         for axis in axes {
             let slices = !["uniform", "hash", "morton"].contains(&grid.0);
             if !slices && *axis != "y" {
@@ -226,16 +241,16 @@ fn clusters_sheets_and_lines() {
     let clusters = (0..600)
         .map(|i| if i % 2 == 0 { min } else { corner } + 3.0 * reach * unit())
         .collect::<Vec<_>>();
-    check("clusters", 3, &clusters);
+    check_addressings("clusters", 3, &clusters);
     let sheet = random(3, 900, 11)
         .iter()
         .map(|p| Vec3::new(p.x, 0.01 * p.y, p.z))
         .collect::<Vec<_>>();
-    check("sheet", 3, &sheet);
+    check_addressings("sheet", 3, &sheet);
     let line = (0..300)
         .map(|i| min + (max - min) * (i as f32 / 299.0))
         .collect::<Vec<_>>();
-    check("line", 3, &line);
+    check_addressings("line", 3, &line);
 }
 
 #[test]
@@ -243,8 +258,8 @@ fn few_points() {
     for dimensions in [2, 3] {
         let (min, max, reach) = corners(dimensions);
         check("one", dimensions, &[min]);
-        check("two apart", dimensions, &[min, max]);
-        check("two together", dimensions, &[max - Vec3::X * 0.5 * reach, max]);
+        check_addressings("two apart", dimensions, &[min, max]);
+        check_addressings("two together", dimensions, &[max - Vec3::X * 0.5 * reach, max]);
     }
 }
 
@@ -263,7 +278,7 @@ fn lattice_with_neighbors_at_exactly_the_radius_and_on_voxel_borders() {
                     }
                 }
             }
-            check("lattice", dimensions, &points);
+            check_addressings("lattice", dimensions, &points);
             // One unit in the last place to either side of each voxel face.
             let nudged = |up: bool| {
                 points.iter().map(move |p| {
@@ -273,12 +288,12 @@ fn lattice_with_neighbors_at_exactly_the_radius_and_on_voxel_borders() {
                 })
             };
             let inside: Vec<Vec3> = nudged(true).collect();
-            check("nudged up", dimensions, &inside);
+            check_addressings("nudged up", dimensions, &inside);
             let both: Vec<Vec3> = nudged(false)
                 .chain(points.iter().copied())
                 .filter(|p: &Vec3| dimensions == 3 || p.z == 0.0)
                 .collect();
-            check("nudged down", dimensions, &both);
+            check_addressings("nudged down", dimensions, &both);
         }
     }
 }
@@ -300,7 +315,7 @@ fn everybody_in_one_voxel_or_at_one_point() {
             })
             .collect();
         check("one voxel, the first", dimensions, &one_voxel);
-        check("coincident", dimensions, &[min + Vec3::X * reach; 50]);
+        check_addressings("coincident", dimensions, &[min + Vec3::X * reach; 50]);
     }
 }
 

@@ -263,25 +263,32 @@ fn a_viewer_that_is_not_there_is_warned_of_and_the_run_goes_on() {
 }
 
 #[test]
-fn a_viewer_that_hangs_up_or_says_nothing_is_warned_of_once_and_the_run_goes_on() {
-    // One that closes every connection, and one that keeps them and never answers.
-    for keep in [false, true] {
-        let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
-        let address = listener.local_addr().unwrap().to_string();
-        std::thread::spawn(move || {
-            let mut kept = Vec::new();
-            for connection in listener.incoming() {
-                if keep {
-                    kept.push(connection);
-                }
+fn a_viewer_that_hangs_up_is_warned_of_once_and_the_run_goes_on() {
+    warns_once_of_a_viewer(false);
+}
+
+#[test]
+fn a_viewer_that_says_nothing_is_warned_of_once_and_the_run_goes_on() {
+    warns_once_of_a_viewer(true);
+}
+
+/// Of one that closes every connection, or of one that keeps them and never answers.
+fn warns_once_of_a_viewer(keep: bool) {
+    let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = listener.local_addr().unwrap().to_string();
+    std::thread::spawn(move || {
+        let mut kept = Vec::new();
+        for connection in listener.incoming() {
+            if keep {
+                kept.push(connection);
             }
-        });
-        let told = run_with_viewer(&address);
-        let warnings = told
-            .lines()
-            .filter(|l| l.starts_with("warning") && l.contains("lost"));
-        assert_eq!(warnings.count(), 1, "{told}");
-    }
+        }
+    });
+    let told = run_with_viewer(&address);
+    let warnings = told
+        .lines()
+        .filter(|l| l.starts_with("warning") && l.contains("lost"));
+    assert_eq!(warnings.count(), 1, "{told}");
 }
 
 #[cfg(target_os = "linux")]

@@ -2,12 +2,17 @@
 
 mod common;
 
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::LazyLock;
+
 use sliceflow::gpu::Shader;
 use sliceflow::gpu::buffers::Usage;
+use sliceflow::gpu::compose::compose;
+use sliceflow::gpu::reflect::StructLayout;
 use sliceflow::gpu::device::Limits;
 use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
 use sliceflow::physics::layout::SHARED;
-use sliceflow::plan::{Plan, Wanted};
+use sliceflow::plan::{PassRow, Plan, Wanted};
 use sliceflow::scene::column::{COLUMNS, Source};
 
 fn wanted() -> Wanted {
@@ -141,23 +146,66 @@ fn plans() -> Vec<Plan> {
     plans
 }
 
+/// Plans and the shaders of their passes. Most plans share most of them.
+struct Composed {
+    plans: Vec<Plan>,
+    /// By composed text and entry point.
+    shaders: BTreeMap<(String, String), Result<Reflected, String>>,
+}
+
+/// What the tests look at of a pass.
+struct Reflected {
+    resources: Vec<String>,
+    structs: Vec<StructLayout>,
+}
+
+static COMPOSED: LazyLock<Composed> = LazyLock::new(|| {
+    let plans = plans();
+    let mut shaders = BTreeMap::new();
+    for (plan, row) in plans
+        .iter()
+        .flat_map(|plan| plan.passes.iter().map(move |row| (plan, row)))
+    {
+        let composed = compose(&row.pass.shader, &plan.variant_of(row.phase));
+        let composed = composed.unwrap_or_else(|error| panic!("{error}"));
+        shaders
+            .entry((composed.text.clone(), row.pass.entry.clone()))
+            .or_insert_with(|| {
+                let reflect = || {
+                    let shader = Shader::from_composed(&composed)?;
+                    let resources = shader.resources(&row.pass.entry)?;
+                    Ok::<_, sliceflow::error::Error>(Reflected {
+                        resources: resources.into_iter().map(|resource| resource.name).collect(),
+                        structs: shader.structs(),
+                    })
+                };
+                reflect().map_err(|error| error.to_string())
+            });
+    }
+    Composed { plans, shaders }
+});
+
+impl Composed {
+    fn shader(&self, plan: &Plan, row: &PassRow) -> &Result<Reflected, String> {
+        let composed = compose(&row.pass.shader, &plan.variant_of(row.phase)).expect("composed before");
+        &self.shaders[&(composed.text, row.pass.entry.clone())]
+    }
+}
+
 #[test]
 fn every_pass_of_every_variant_is_valid_and_finds_its_buffers() {
     let mut failures = Vec::new();
-    for plan in plans() {
+    for plan in &COMPOSED.plans {
         for row in &plan.passes {
-            let pass = &row.pass;
-            match Shader::load(&pass.shader, &plan.variant_of(row.phase))
-                .and_then(|s| s.resources(&pass.entry))
-            {
-                Ok(resources) => {
-                    for resource in resources {
-                        if !plan.buffers.iter().any(|b| b.name == resource.name) {
-                            failures.push(format!("{}: no buffer `{}`", pass.entry, resource.name));
+            match COMPOSED.shader(plan, row) {
+                Ok(shader) => {
+                    for name in &shader.resources {
+                        if !plan.buffers.iter().any(|b| b.name == *name) {
+                            failures.push(format!("{}: no buffer `{name}`", row.pass.entry));
                         }
                     }
                 }
-                Err(error) => failures.push(error.to_string()),
+                Err(error) => failures.push(error.clone()),
             }
         }
     }
@@ -168,52 +216,38 @@ fn every_pass_of_every_variant_is_valid_and_finds_its_buffers() {
 
 #[test]
 fn every_planned_buffer_is_used_by_a_pass() {
-    for plan in plans() {
-        let mut used = Vec::new();
-        for row in &plan.passes {
-            let shader = Shader::load(&row.pass.shader, &plan.variant_of(row.phase)).unwrap();
-            used.extend(
-                shader
-                    .resources(&row.pass.entry)
-                    .unwrap()
-                    .into_iter()
-                    .map(|r| r.name),
-            );
-        }
+    for plan in &COMPOSED.plans {
+        let shaders = plan.passes.iter().map(|row| COMPOSED.shader(plan, row));
+        let used: Vec<_> = shaders
+            .flat_map(|shader| &shader.as_ref().expect("a valid shader").resources)
+            .collect();
         // Arguments of dispatches are used by being there.
         for buffer in plan.buffers.iter().filter(|b| b.usage != Usage::Indirect) {
-            assert!(used.contains(&buffer.name), "no pass uses `{}`", buffer.name);
+            assert!(used.contains(&&buffer.name), "no pass uses `{}`", buffer.name);
         }
     }
 }
 
 #[test]
 fn shared_structs_agree_offset_by_offset() {
-    let mut seen = std::collections::BTreeSet::new();
-    for plan in plans() {
-        for row in &plan.passes {
-            let shader = Shader::load(&row.pass.shader, &plan.variant_of(row.phase)).unwrap();
-            for layout in shader.structs() {
-                let Some(host) = SHARED.iter().find(|s| s.name == layout.name) else {
-                    continue;
-                };
-                seen.insert(host.name);
-                let fields: Vec<_> = host
-                    .fields
-                    .iter()
-                    .filter(|(name, ..)| !name.starts_with('_'))
-                    .map(|&(name, offset, size)| (name.to_owned(), offset as u32, size as u32))
-                    .collect();
-                assert_eq!(
-                    fields, layout.fields,
-                    "struct {} of {}",
-                    layout.name, row.pass.shader
-                );
-                assert_eq!(host.size as u32, layout.size, "size of {}", layout.name);
-            }
+    let mut seen = BTreeSet::new();
+    for shader in COMPOSED.shaders.values() {
+        for layout in &shader.as_ref().expect("a valid shader").structs {
+            let Some(host) = SHARED.iter().find(|s| s.name == layout.name) else {
+                continue;
+            };
+            seen.insert(host.name);
+            let fields: Vec<_> = host
+                .fields
+                .iter()
+                .filter(|(name, ..)| !name.starts_with('_'))
+                .map(|&(name, offset, size)| (name.to_owned(), offset as u32, size as u32))
+                .collect();
+            assert_eq!(fields, layout.fields, "struct {}", layout.name);
+            assert_eq!(host.size as u32, layout.size, "size of {}", layout.name);
         }
     }
-    let all: std::collections::BTreeSet<_> = SHARED.iter().map(|s| s.name).collect();
+    let all: BTreeSet<_> = SHARED.iter().map(|s| s.name).collect();
     assert_eq!(seen, all, "structs that no shader has");
 }
 

@@ -139,9 +139,14 @@ impl Folder {
     }
 
     fn try_writing(&self) -> Result<()> {
-        let trial = self.path.join(format!(".sliceflow-{}", std::process::id()));
+        // Always the same file, so that one left by a run that was killed is removed by the next.
+        let trial = self.path.join(".sliceflow");
+        let removed = || match fs::remove_file(&trial) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+            other => other,
+        };
         fs::write(&trial, b"")
-            .and_then(|()| fs::remove_file(&trial))
+            .and_then(|()| removed())
             .map_err(|reason| disk::failed(&self.path, "write into", reason))
     }
 }
