@@ -1,4 +1,4 @@
-// Density by summation, and how density answers to pressure: the diagonal of the linear system (Bender and Koschier 2015,
+// What a particle's surroundings do: density by summation, the drag of its neighbors, and how density answers to pressure: the diagonal of the linear system (Bender and Koschier 2015,
 // Eq. 9; 2017, Eq. 11).
 #flag writes_state
 #import common/thread
@@ -7,6 +7,12 @@
 #import physics/dfsph/loop
 #import physics/dfsph/own
 #import physics/dfsph/pair_list
+#if drag
+#import physics/dfsph/drag
+
+// For `apply_forces`: acceleration by drag, m/s².
+var<storage, read_write> next_velocity: array<Packed>;
+#end
 
 var<storage, read_write> pair_list: array<Pair>;
 
@@ -26,6 +32,10 @@ fn find_density(thread: Thread) {
     let x = unpack(position[i]);
     var sum = kernel(0.0);
     var slopes = Vector(0.0); // 1/m
+#if drag
+    let v = unpack(velocity[i]);
+    var drag = Vector(0.0); // m/s²
+#end
     var squares = 0.0; // of those that pressure can move, 1/m²
 #if boundary_particles
     var pull = Vector(0.0);
@@ -39,8 +49,12 @@ fn find_density(thread: Thread) {
             let s = toward(x, j);
             let r = length(s);
             sum += kernel(r);
-            let slope = (fluid.volume * kernel_slope(r)) * s;
+            let steepness = fluid.volume * kernel_slope(r);
+            let slope = steepness * s;
             slopes += slope;
+#if drag
+            drag += drag_by(j, v, s, steepness);
+#end
 #if boundary_particles
             if k == 1u {
                 pull += slope;
@@ -58,6 +72,9 @@ fn find_density(thread: Thread) {
     let response = select(fluid.density / diagonal, 0.0, diagonal * fluid.spacing * fluid.spacing < LONELY);
 #if boundary_particles
     wall_pull[i] = pack_with(pull, approach);
+#end
+#if drag
+    next_velocity[i] = pack(drag);
 #end
     own[i] = Own(excess, 0.0, response, 0.0);
     fluid_state[i] = vec2f(excess, pressure);
