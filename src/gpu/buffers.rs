@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::error::{Error, Result};
+use crate::gpu::parts::Contents;
 use crate::gpu::{BufferPlan, Gpu};
 
 /// How a buffer is used besides being bound.
@@ -53,11 +54,19 @@ impl Buffers {
     /// Creates a buffer as planned, with what it begins with.
     pub fn make(&mut self, gpu: &Gpu, plan: &BufferPlan) -> Result<()> {
         self.create(gpu, &plan.name, plan.bytes, plan.usage)?;
-        if !plan.fill.is_empty() {
-            let times = plan.bytes as usize / size_of_val(plan.fill);
-            self.write(gpu, &plan.name, 0, &plan.fill.repeat(times))?;
+        self.fill(gpu, plan)
+    }
+
+    /// Writes into a buffer what its plan says that it begins with.
+    pub fn fill(&self, gpu: &Gpu, plan: &BufferPlan) -> Result<()> {
+        match &plan.contents {
+            Contents::Zeros => Ok(()),
+            Contents::Pattern(pattern) => {
+                let times = plan.bytes as usize / size_of_val(*pattern);
+                self.write(gpu, &plan.name, 0, &pattern.repeat(times))
+            }
+            Contents::Bytes(bytes) => self.write(gpu, &plan.name, 0, bytes),
         }
-        Ok(())
     }
 
     /// The buffer that `user` asks for.

@@ -1,11 +1,25 @@
 //! What plans are made of: buffers and passes, each with the reason why a scene needs it.
 
+use std::ops::Range;
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::buffers::Usage;
 
-/// A buffer that a plan asks for.
+/// What a buffer holds before anything runs.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub enum Contents {
+    #[default]
+    Zeros,
+    /// A pattern, over and over.
+    Pattern(&'static [i32]),
+    /// Its first bytes; zeros follow.
+    Bytes(Arc<[u8]>),
+}
+
+/// A buffer that a plan asks for. Whoever plans it also says what is written into it and who reads it.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct BufferPlan {
     /// Its name, the same in shaders and messages.
@@ -14,9 +28,15 @@ pub struct BufferPlan {
     pub bytes: u64,
     #[serde(skip)]
     pub usage: Usage,
-    /// What it holds before anything runs, over and over; empty for zeros.
+    /// What it holds before anything runs.
     #[serde(skip)]
-    pub fill: &'static [i32],
+    pub contents: Contents,
+    /// Whether the host writes its contents again before each search.
+    #[serde(skip)]
+    pub renewed: bool,
+    /// Where every frame brings it to the host: the bytes that are zeroed after that.
+    #[serde(skip)]
+    pub reported: Option<Range<u64>>,
     /// What it is for.
     pub why: String,
 }
@@ -28,7 +48,9 @@ impl BufferPlan {
             name: name.to_owned(),
             bytes: count * element,
             usage: Usage::Storage,
-            fill: &[],
+            contents: Contents::Zeros,
+            renewed: false,
+            reported: None,
             why: why.into(),
         }
     }
@@ -36,11 +58,8 @@ impl BufferPlan {
     /// A uniform buffer of one struct.
     pub fn uniform(name: &str, bytes: usize, why: impl Into<String>) -> Self {
         Self {
-            name: name.to_owned(),
-            bytes: bytes as u64,
             usage: Usage::Uniform,
-            fill: &[],
-            why: why.into(),
+            ..Self::storage(name, 1, bytes as u64, why)
         }
     }
 
@@ -52,9 +71,54 @@ impl BufferPlan {
         }
     }
 
+    /// A uniform buffer that holds one struct from the start.
+    pub fn constant<T: bytemuck::NoUninit>(name: &str, value: &T, why: impl Into<String>) -> Self {
+        Self::uniform(name, size_of::<T>(), why).holding(std::slice::from_ref(value))
+    }
+
+    /// A storage buffer that holds these elements from the start.
+    pub fn table<T: bytemuck::NoUninit>(name: &str, values: &[T], why: impl Into<String>) -> Self {
+        Self::storage(name, values.len() as u64, size_of::<T>() as u64, why).holding(values)
+    }
+
     /// The same buffer, beginning with a pattern over and over instead of zeros.
-    pub fn filled_with(self, fill: &'static [i32]) -> Self {
-        Self { fill, ..self }
+    pub fn filled_with(self, pattern: &'static [i32]) -> Self {
+        Self {
+            contents: Contents::Pattern(pattern),
+            ..self
+        }
+    }
+
+    /// The same buffer, beginning with these elements.
+    pub fn holding<T: bytemuck::NoUninit>(self, values: &[T]) -> Self {
+        Self {
+            contents: Contents::Bytes(bytemuck::cast_slice(values).into()),
+            ..self
+        }
+    }
+
+    /// The same buffer, whose contents the host writes again before each search.
+    pub fn renewed(self) -> Self {
+        Self {
+            renewed: true,
+            ..self
+        }
+    }
+
+    /// The same buffer, which every frame brings to the host.
+    pub fn reported(self) -> Self {
+        Self {
+            reported: Some(0..0),
+            ..self
+        }
+    }
+
+    /// The same, and from this byte on it counts from one frame to the next.
+    pub fn reported_from(self, first: u64) -> Self {
+        Self {
+            reported: Some(first..self.bytes),
+            ..self
+        }
     }
 }
 

@@ -141,7 +141,9 @@ pub fn search_state(search: &mut Search) {
         1,
         SearchState::LAYOUT.size as u64,
         "what the search needed, and whether it had room",
-    ));
+    )
+    .holding(&[SearchState::BEFORE])
+    .renewed());
 }
 
 /// Regions along one direction: `REGIONS_ALONG` of `cells/regions.wgsl`.

@@ -6,8 +6,7 @@ use super::layout::ListState;
 use super::{Search, storage};
 use crate::error::{Error, Result};
 use crate::gpu::{BufferPlan, Items, Limits, PassPlan, Variant};
-use crate::scene::model::FluidSolver;
-use crate::scene::{Dimensions, Matter, Scene};
+use crate::scene::Scene;
 
 /// Shader of the pass that counts a step; with lists it also decides whether to search.
 const CLOCK: &str = "physics/advance_clock";
@@ -23,9 +22,7 @@ pub fn wanted(scene: &Scene) -> bool {
 
 /// Whether lists are made in every step, for a solver that goes over them many times before particles move.
 pub fn every_step(scene: &Scene) -> bool {
-    scene
-        .fluid()
-        .is_some_and(|fluid| fluid.solver == FluidSolver::Dfsph)
+    scene.neighbors.lists_every_step
 }
 
 /// Whether boundary particles stand at the end of each list, for a solver whose loops leave them out.
@@ -33,20 +30,9 @@ fn walls_apart(scene: &Scene) -> bool {
     every_step(scene) && !scene.walls.is_empty()
 }
 
-/// Neighbors of a particle within the radius and the skin: in a dense packing of equal spheres, or on a lattice as wide
-/// as a fluid's spacing.
+/// Neighbors that a particle usually has within the radius and the skin.
 pub fn usual_length(scene: &Scene) -> u32 {
-    let reach = 1.0 + scene.neighbors.skin;
-    let radii = scene.search_radius() / (2.0 * scene.radius()) * reach;
-    let (touching, ball, dimensions) = match scene.dimensions {
-        Dimensions::Two => (6.0, std::f64::consts::PI, 2),
-        Dimensions::Three => (12.0, 4.0 / 3.0 * std::f64::consts::PI, 3),
-    };
-    let count = match scene.matter {
-        Matter::Grains(_) => touching * f64::powi(reach, dimensions),
-        Matter::Fluid(_) => ball * f64::powi(radii, dimensions),
-    };
-    count.ceil() as u32
+    scene.usual_neighbors(1.0 + scene.neighbors.skin).ceil() as u32
 }
 
 /// The lists' own buffers, with room for so many neighbors of each particle.
@@ -189,7 +175,9 @@ pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
         1,
         16,
         "a workgroup for the passes that lay out the grid, when there is a search",
-    ));
+    )
+    .holding(&[[1u32; 4]])
+    .renewed());
     search.passes = when(&search.passes, Items::SearchedParticles);
     search.passes.extend([
         PassPlan::new(

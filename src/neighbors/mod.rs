@@ -172,7 +172,7 @@ impl Search {
         let storage = storage::row(scene.neighbors.storage);
         let mut search = Self {
             buffers: vec![
-                BufferPlan::uniform("grid", Grid::LAYOUT.size, "place and size of the voxels"),
+                BufferPlan::constant("grid", &grid, "place and size of the voxels"),
                 BufferPlan::indirect(
                     "dispatch",
                     DISPATCHES,

@@ -161,7 +161,8 @@ fn pool(search: &mut Search, _: u32, neighbors: &Neighbors) {
             4,
             format!("{slots} particle indices per voxel"),
         ),
-        BufferPlan::storage("overflow", 2, 4, "particles that found no slot"),
+        // Its second number counts from one frame to the next.
+        BufferPlan::storage("overflow", 2, 4, "particles that found no slot").reported_from(4),
     ]);
     let build = "storage/pool/build";
     search.passes.extend([

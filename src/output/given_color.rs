@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::read_back::Snapshot;
+use crate::physics;
 use crate::scene::Scene;
 use crate::simulation::State;
 
@@ -35,25 +36,31 @@ pub fn values(scene: &Scene, snapshot: &Snapshot) -> Option<Vec<f32>> {
     snapshot.state.as_ref().and_then(|state| of_state(scene, state))
 }
 
-/// What a fluid's state says of its particles.
+/// What a checkpoint's state says of the particles.
 fn of_state(scene: &Scene, state: &State) -> Option<Vec<f32>> {
-    let fluid = scene.fluid()?;
-    let ids = state.ids();
+    let name = scene.color.column.name;
     let material: Option<Vec<u32>> = state.buffer("material").map(bytemuck::pod_collect_to_vec);
-    // (ρ/ρ₀) − 1 and pressure.
-    let found: Option<Vec<[f32; 2]>> = state.buffer("fluid_state").map(bytemuck::pod_collect_to_vec);
     let material_of = |slot: usize| material.as_ref().map_or(0, |of| of[slot] as usize);
+    let derived = physics::model(&scene.matter).from_state;
+    let derived = derived.iter().find(|derived| derived.column == name);
+    let found: Vec<f32> = match derived {
+        Some(derived) => bytemuck::pod_collect_to_vec(state.buffer(derived.buffer)?),
+        None if name == "material" => Vec::new(),
+        None => return None,
+    };
+    let ids = state.ids();
     let mut values = vec![0.0; ids.len().checked_sub(scene.walls.len())?];
     for (slot, &id) in ids.iter().enumerate() {
         // Boundary particles have the highest ids.
         let Some(value) = values.get_mut(id as usize) else {
             continue;
         };
-        *value = match scene.color.column.name {
-            "material" => material_of(slot) as f32,
-            "density" => fluid.materials[material_of(slot)].density as f32 * (1.0 + found.as_ref()?[slot][0]),
-            "pressure" => found.as_ref()?[slot][1],
-            _ => return None,
+        *value = match derived {
+            Some(derived) => {
+                let own = &found[slot * derived.width..][..derived.width];
+                (derived.value)(scene, own, material_of(slot))
+            }
+            None => material_of(slot) as f32,
         };
     }
     Some(values)

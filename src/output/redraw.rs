@@ -18,6 +18,7 @@ use super::tally::Tally;
 use super::text::seconds;
 use super::{given_color, interrupt};
 use crate::error::{Error, Result};
+use crate::physics;
 use crate::plan::{Plan, Wanted};
 use crate::scene::Scene;
 use crate::scene::column::Source;
@@ -225,8 +226,9 @@ fn check_color(scene: &Scene, snapshot: &Snapshot, frame: u32) -> Result<()> {
             "choose another color, such as --set render.color.by=y, or run again with --columns position,velocity",
         ));
     }
-    let of_fluid = ["density", "pressure", "material"];
-    if scene.fluid().is_some() && of_fluid.contains(&column) && snapshot.state.is_none() {
+    let derived = physics::model(&scene.matter).from_state;
+    let is_of_state = column == "material" || derived.iter().any(|derived| derived.column == column);
+    if is_of_state && snapshot.state.is_none() {
         return Err(Error::usage(
             format!(
                 "frame {frame} cannot be colored by {column}: its particle files have none, and positions do not tell"

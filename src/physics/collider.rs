@@ -21,21 +21,27 @@ pub struct Obstacles {
     pub notes: Vec<String>,
 }
 
+/// Mean velocity of a path between two times, m/s.
+pub fn velocity_between(path: &[(f64, Vec3)], from: f64, to: f64) -> Vec3 {
+    (offset_at(path, to) - offset_at(path, from)) / (to - from) as f32
+}
+
 impl Obstacles {
     pub fn new(scene: &Scene) -> Self {
-        let mut all = Self {
-            moving: scene.colliders.iter().any(|collider| !collider.path.is_empty()),
-            ..Self::default()
-        };
-        if scene.fluid().is_some() {
-            // A fluid meets boundary particles instead.
-            return all;
-        }
+        let mut all = Self::of_boundary_particles(scene);
         for collider in &scene.colliders {
             let described = all.describe(scene, collider);
             all.colliders.push(described);
         }
         all
+    }
+
+    /// The same for solvers that meet boundary particles instead of shapes.
+    pub fn of_boundary_particles(scene: &Scene) -> Self {
+        Self {
+            moving: scene.colliders.iter().any(|collider| !collider.path.is_empty()),
+            ..Self::default()
+        }
     }
 
     fn describe(&mut self, scene: &Scene, collider: &scene::Collider) -> Collider {

@@ -2,29 +2,38 @@
 
 use glam::Vec3;
 
-use super::Solver;
-use super::collider::Obstacles;
-use super::layout::{ClampWalls, Collider, Contact, ContactWalls, Measure};
+use super::collider::{Obstacles, offset_at, velocity_between};
+use super::layout::{ClampWalls, Contact, ContactWalls, Measure};
+use super::model::{Fault, Model, OwnFigures, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::neighbors::Grid;
 use crate::neighbors::grid::voxel_reach;
-use crate::scene::column::Column;
 use crate::scene::model::{Dashpot, Integrator, Wall};
-use crate::scene::{self, Action, Dimensions, Scene};
+use crate::scene::{self, Dimensions, Matter, Scene};
 
 /// Stands for a wall that is not there, metres; far from every f32 position and safely finite when subtracted.
 const FAR: f32 = 1e30;
 
-/// The contact laws that hold at some time during the run.
-fn contacts(scene: &Scene, grains: &scene::Grains) -> impl Iterator<Item = scene::Contact> {
-    let later = scene
-        .schedule
-        .iter()
-        .filter_map(|scheduled| match &scheduled.action {
-            Action::SetParameters { contact, .. } => *contact,
-            Action::Add(_) => None,
-        });
-    std::iter::once(grains.contact).chain(later)
+/// The row of grains.
+pub(super) const MODEL: Model = Model {
+    name: "dem",
+    moves: |matter| matter.grains().is_some(),
+    plan,
+    parameters,
+    place_obstacles,
+    measures_by_voxels: true,
+    figures: &["contacts", "max_overlap"],
+    sums: |_, _, _| OwnFigures::default(),
+    from_state: &[],
+    particle_mass: |scene| grains(&scene.matter).mass,
+    fault: Fault {
+        too_long_for: "the contact's stiffness or damping; lower time.step or raise time.steps_per_contact",
+        lost: "raise grains.spring",
+    },
+};
+
+fn grains(matter: &Matter) -> &scene::Grains {
+    matter.grains().expect("this solver moves grains alone")
 }
 
 pub fn has_wall(scene: &Scene, kind: Wall) -> bool {
@@ -35,18 +44,22 @@ pub fn has_wall(scene: &Scene, kind: Wall) -> bool {
         .any(|&wall| wall == kind)
 }
 
-/// What grains need. `columns` are those that somebody asked for, `statistics` whether figures over all grains are.
-pub fn plan(
-    scene: &Scene,
-    grains: &scene::Grains,
-    obstacles: &Obstacles,
-    columns: &[Column],
-    statistics: bool,
-    variant: &mut Variant,
-) -> Solver {
+/// What grains need.
+fn plan(request: &Request, variant: &mut Variant) -> Solver {
+    let &Request {
+        scene,
+        columns,
+        statistics,
+        grid,
+    } = request;
+    let obstacles = Obstacles::new(scene);
+    let given = grains(&scene.matter);
     let contact_walls = has_wall(scene, Wall::Contact);
     let clamp_walls = has_wall(scene, Wall::Clamp);
-    let ever = |positive: fn(&scene::Contact) -> bool| contacts(scene, grains).any(|c| positive(&c));
+    // At some time during the run.
+    let ever = |positive: fn(&scene::Contact) -> bool| {
+        scene.matters().any(|matter| positive(&grains(matter).contact))
+    };
     let measured = super::measured(scene, columns, variant);
     variant
         .flag("contact_walls", contact_walls)
@@ -54,7 +67,7 @@ pub fn plan(
         .flag("colliders", !obstacles.colliders.is_empty())
         .flag("moving_colliders", obstacles.moving)
         .flag("mesh_colliders", !obstacles.field.is_empty())
-        .flag("normal_dashpot", grains.contact.dashpot == Dashpot::Normal)
+        .flag("normal_dashpot", given.contact.dashpot == Dashpot::Normal)
         .flag("shear", ever(|c| c.shear > 0.0))
         .flag("attraction", ever(|c| c.attraction > 0.0))
         .flag("global_damping", ever(|c| c.global_damping > 0.0))
@@ -69,33 +82,18 @@ pub fn plan(
     ));
     if contact_walls {
         let why = "sides of the domain that push back";
-        buffers.push(BufferPlan::uniform(
-            "contact_walls",
-            ContactWalls::LAYOUT.size,
-            why,
-        ));
+        buffers.push(BufferPlan::constant("contact_walls", &walls_that_push(scene), why));
     }
     if clamp_walls {
         let why = "sides of the domain that clamp (Green 2012)";
-        buffers.push(BufferPlan::uniform("clamp_walls", ClampWalls::LAYOUT.size, why));
+        buffers.push(BufferPlan::constant("clamp_walls", &walls_that_clamp(scene), why));
     }
     if !obstacles.colliders.is_empty() {
-        let count = obstacles.colliders.len() as u64;
-        buffers.push(BufferPlan::storage(
-            "colliders",
-            count,
-            Collider::LAYOUT.size as u64,
-            "obstacles",
-        ));
+        buffers.push(BufferPlan::table("colliders", &obstacles.colliders, "obstacles"));
     }
     if !obstacles.field.is_empty() {
         let why = "signed distances around mesh obstacles";
-        buffers.push(BufferPlan::storage(
-            "distance_field",
-            obstacles.field.len() as u64,
-            4,
-            why,
-        ));
+        buffers.push(BufferPlan::table("distance_field", &obstacles.field, why));
     }
 
     let pass = |file: &str, entry, why: &str| {
@@ -135,21 +133,25 @@ pub fn plan(
     }
 
     if statistics || !measured.is_empty() {
-        buffers.push(BufferPlan::uniform(
+        buffers.push(BufferPlan::constant(
             "measure",
-            Measure::LAYOUT.size,
+            &measure(scene, given, grid),
             "what measures are divided by",
         ));
         buffers.extend(measured);
         let why = "contacts, energies and measured columns of each grain, once a frame";
         solver.measure.push(pass("measure", "measure_grains", why));
     }
+    solver.notes.clone_from(&obstacles.notes);
+    solver.obstacles = obstacles;
     solver
 }
 
-/// The contact law's coefficients for the shaders.
-pub fn contact_values(grains: &scene::Grains, contact: &scene::Contact) -> Contact {
-    Contact {
+/// The contact law's coefficients.
+fn parameters(_: &Scene, matter: &Matter) -> Vec<Written> {
+    let grains = grains(matter);
+    let contact = &grains.contact;
+    let contact = Contact {
         spring: contact.spring as f32,
         damping: contact.damping as f32,
         wall_damping: contact.wall_damping as f32,
@@ -158,7 +160,24 @@ pub fn contact_values(grains: &scene::Grains, contact: &scene::Contact) -> Conta
         global_damping: contact.global_damping as f32,
         diameter: (2.0 * grains.radius) as f32,
         inverse_mass: (1.0 / grains.mass) as f32,
+    };
+    vec![Written::new("contact", &[contact])]
+}
+
+/// Shapes with their offsets and velocities, and a clock that begins anew.
+fn place_obstacles(scene: &Scene, obstacles: &Obstacles, from: f64, to: f64) -> Vec<Written> {
+    let mut moved = obstacles.colliders.clone();
+    for (collider, placed) in moved.iter_mut().zip(&scene.colliders) {
+        let offset = offset_at(&placed.path, from);
+        let velocity = velocity_between(&placed.path, from, to);
+        collider.offset = [offset.x, offset.y, offset.z, 0.0];
+        collider.velocity = [velocity.x, velocity.y, velocity.z, 0.0];
     }
+    vec![
+        Written::new("colliders", &moved),
+        // The first field of `Clock`.
+        Written::new("clock", &[0u32]),
+    ]
 }
 
 /// Bounds with the sides that are not of this kind moved far away.
@@ -176,12 +195,12 @@ pub fn bounds(scene: &Scene, kind: impl Fn(Wall) -> bool, inset: f32) -> ([f32; 
     (lower, upper)
 }
 
-pub fn contact_walls(scene: &Scene) -> ContactWalls {
+fn walls_that_push(scene: &Scene) -> ContactWalls {
     let (lower, upper) = bounds(scene, |wall| wall == Wall::Contact, 0.0);
     ContactWalls { lower, upper }
 }
 
-pub fn clamp_walls(scene: &Scene) -> ClampWalls {
+fn walls_that_clamp(scene: &Scene) -> ClampWalls {
     let (lower, upper) = bounds(scene, |wall| wall == Wall::Clamp, scene.radius() as f32);
     ClampWalls {
         lower,
@@ -200,7 +219,7 @@ pub fn guard_bounds(scene: &Scene) -> ([f32; 4], [f32; 4]) {
     )
 }
 
-pub fn measure(scene: &Scene, grains: &scene::Grains, grid: &Grid) -> Measure {
+fn measure(scene: &Scene, grains: &scene::Grains, grid: &Grid) -> Measure {
     use std::f64::consts::PI;
     let radius = grains.radius;
     let side = f64::from(grid.side);

@@ -7,16 +7,16 @@
 //! rest run on nothing once they have converged (`shaders/physics/dfsph/control.wgsl`). Pressures are never negative, so the
 //! fluid has free surfaces.
 
-use super::Solver;
+use super::collider::Obstacles;
 use super::dem::has_wall;
-use super::fluid::{FLAG, coefficients, kernel_file};
+use super::fluid::{self, FLAG, boundary, coefficients, given, kernel_file, measure, rim_of};
 use super::kernels;
-use super::layout::{Convergence, Dfsph, Fluid, Measure, PACKED_BYTES, Rim};
+use super::layout::{Convergence, Dfsph, Fluid, PACKED_BYTES};
+use super::model::{Model, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Repeat, Variant};
 use crate::neighbors::storage;
-use crate::scene::column::Column;
-use crate::scene::model::{Slip, Wall};
-use crate::scene::{self, Scene};
+use crate::scene::model::{FluidSolver, Slip, Wall};
+use crate::scene::{self, Matter, Scene};
 
 /// Sums that the errors of all particles are added to.
 const ERROR_SUMS: u32 = 256;
@@ -34,14 +34,37 @@ const WARM_START: f32 = 1.0;
 /// impact: 8.8 without, 5.1 with 0.5, 1.7 with 0.9.
 const WARM_CORRECTION: f32 = 0.9;
 
-/// What such a fluid needs. `columns` are those that somebody asked for, `statistics` whether figures over it are.
-pub fn plan(
-    scene: &Scene,
-    fluid: &scene::fluid::Fluid,
-    columns: &[Column],
-    statistics: bool,
-    variant: &mut Variant,
-) -> Solver {
+/// The row of incompressible fluids.
+pub(super) const MODEL: Model = Model {
+    name: "dfsph",
+    moves: |matter| {
+        matter
+            .fluid()
+            .is_some_and(|fluid| fluid.solver == FluidSolver::Dfsph)
+    },
+    plan,
+    parameters,
+    ..fluid::MODEL
+};
+
+/// The coefficients of the fluid, and what its loops stop at.
+fn parameters(scene: &Scene, matter: &Matter) -> Vec<Written> {
+    let fluid = given(matter);
+    vec![
+        Written::new("fluid", &[coefficients(scene, fluid)]),
+        Written::new("dfsph", &[settings(scene, fluid)]),
+    ]
+}
+
+/// What such a fluid needs.
+fn plan(request: &Request, variant: &mut Variant) -> Solver {
+    let &Request {
+        scene,
+        columns,
+        statistics,
+        ..
+    } = request;
+    let fluid = given(&scene.matter);
     let walls = !scene.walls.is_empty();
     let moving = walls && scene.colliders.iter().any(|collider| !collider.path.is_empty());
     let faces = has_wall(scene, Wall::Particles);
@@ -65,7 +88,10 @@ pub fn plan(
         .flag("statistics", statistics);
     let measured = super::measured(scene, columns, variant);
 
-    let mut solver = Solver::default();
+    let mut solver = Solver {
+        obstacles: Obstacles::of_boundary_particles(scene),
+        ..Solver::default()
+    };
     let each = u64::from(scene.capacity);
     let listed = match storage::row(scene.neighbors.storage).sorts {
         true => u64::from(scene.first_wall()),
@@ -98,7 +124,8 @@ pub fn plan(
             1,
             Convergence::LAYOUT.size as u64,
             "iterations and errors of the loops",
-        ),
+        )
+        .reported_from(0),
         BufferPlan::uniform("dfsph", Dfsph::LAYOUT.size, "what the loops stop at"),
         BufferPlan::uniform("fluid", Fluid::LAYOUT.size, "coefficients of the fluid"),
     ]);
@@ -106,10 +133,9 @@ pub fn plan(
         let why = "closed sides, and where they go on beyond open ones";
         solver
             .buffers
-            .push(BufferPlan::uniform("rim", Rim::LAYOUT.size, why));
+            .push(BufferPlan::constant("rim", &rim_of(scene, fluid), why));
     }
     if walls {
-        let count = scene.walls.len() as u64;
         let why = "what boundary particles add to the loops";
         solver
             .buffers
@@ -117,7 +143,7 @@ pub fn plan(
         let why = "boundary particles: velocity of the surface, and whose they are";
         solver
             .buffers
-            .push(BufferPlan::storage("boundary", count, 16, why));
+            .push(BufferPlan::table("boundary", &boundary(scene), why));
     }
     if moving {
         let count = scene.colliders.len() as u64;
@@ -263,11 +289,10 @@ pub fn plan(
         "density by summation, and how it answers to pressure",
     ));
     if statistics {
-        solver.buffers.push(BufferPlan::uniform(
-            "measure",
-            Measure::LAYOUT.size,
-            "where energies are zero",
-        ));
+        let why = "where energies are zero";
+        solver
+            .buffers
+            .push(BufferPlan::constant("measure", &measure(scene), why));
     }
     if statistics || !measured.is_empty() {
         solver.measure.push(PassPlan::new(
@@ -282,7 +307,7 @@ pub fn plan(
 }
 
 /// The loops' numbers for the shaders.
-pub fn settings(scene: &Scene, fluid: &scene::fluid::Fluid) -> Dfsph {
+fn settings(scene: &Scene, fluid: &scene::fluid::Fluid) -> Dfsph {
     let given = coefficients(scene, fluid);
     let slope = kernels::steepest(fluid.kernel, scene.dimensions.count());
     Dfsph {

@@ -5,17 +5,17 @@
 
 use glam::Vec3;
 
-use super::Solver;
+use super::collider::{Obstacles, velocity_between};
 use super::dem::{bounds, has_wall};
 use super::kernels;
-use super::layout::{Fluid, Material, Measure, PACKED_BYTES, Planes, Rim};
+use super::layout::{Fluid, Material, Measure, PACKED_BYTES, Planes, Rim, Sums};
+use super::model::{Fault, FromState, Model, OwnFigures, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
-use crate::scene::column::Column;
 use crate::scene::model::{
     DensityFrom, FluidSolver, Integrator, Kernel, NegativePressure, PressureForce, Slip, ViscosityForm, Wall,
 };
 use crate::scene::walls::NO_BODY;
-use crate::scene::{self, Scene};
+use crate::scene::{self, Matter, Scene};
 
 /// Flag of every variant of a fluid.
 pub const FLAG: &str = "fluid";
@@ -23,6 +23,95 @@ pub const FLAG: &str = "fluid";
 const LONGEST_SHIFT: f64 = 0.05;
 /// The shift of δ⁺-SPH in units of h × expected speed (Sun 2017, with its h half of the support).
 const USUAL_SHIFT: f64 = 4.0;
+
+/// The row of weakly compressible fluids.
+pub(super) const MODEL: Model = Model {
+    name: "wcsph",
+    moves: |matter| {
+        matter
+            .fluid()
+            .is_some_and(|fluid| fluid.solver != FluidSolver::Dfsph)
+    },
+    plan,
+    parameters,
+    place_obstacles,
+    measures_by_voxels: false,
+    figures: FIGURES,
+    sums,
+    from_state: FROM_STATE,
+    particle_mass,
+    fault: FAULT,
+};
+
+pub(super) const FIGURES: &[&str] = &[
+    "boundary_particles",
+    "density_error_mean",
+    "density_error_max",
+    "clamped_pressures",
+    "clamped_densities",
+];
+pub(super) const FAULT: Fault = Fault {
+    too_long_for: "the fluid's speed; raise fluid.max_speed or lower time.step",
+    lost: "raise fluid.max_speed",
+};
+/// `fluid_state` holds ρ/ρ₀ − 1 and the pressure, Pa.
+pub(super) const FROM_STATE: &[FromState] = &[
+    FromState {
+        column: "density",
+        buffer: "fluid_state",
+        width: 2,
+        value: |scene, state, material| {
+            given(&scene.matter).materials[material].density as f32 * (1.0 + state[0])
+        },
+    },
+    FromState {
+        column: "pressure",
+        buffer: "fluid_state",
+        width: 2,
+        value: |_, state, _| state[1],
+    },
+];
+
+pub(super) fn given(matter: &Matter) -> &scene::fluid::Fluid {
+    matter.fluid().expect("this solver moves fluids alone")
+}
+
+pub(super) fn particle_mass(scene: &Scene) -> f64 {
+    let fluid = given(&scene.matter);
+    fluid.materials[0].density * fluid.volume(scene.dimensions)
+}
+
+pub(super) fn sums(scene: &Scene, particles: u32, sums: &Sums) -> OwnFigures {
+    let clamps = given(&scene.matter).negative_pressure == NegativePressure::Clamp;
+    OwnFigures {
+        density_error: Some([
+            f64::from(sums.density_error) / f64::from(particles.max(1)),
+            f64::from(sums.max_density_error),
+        ]),
+        clamped: clamps.then_some([sums.clamped_pressures, sums.clamped_densities]),
+    }
+}
+
+/// How fast each obstacle moves its boundary particles.
+pub(super) fn place_obstacles(scene: &Scene, _: &Obstacles, from: f64, to: f64) -> Vec<Written> {
+    // Without boundary particles there is nothing to move.
+    if scene.walls.is_empty() {
+        return Vec::new();
+    }
+    let velocity = |collider: &scene::Collider| velocity_between(&collider.path, from, to);
+    let each = scene.colliders.iter().map(|c| velocity(c).extend(0.0).to_array());
+    vec![Written::new("body_velocity", &each.collect::<Vec<_>>())]
+}
+
+/// The coefficients of the fluid, and of each of several.
+fn parameters(scene: &Scene, matter: &Matter) -> Vec<Written> {
+    let fluid = given(matter);
+    let mut written = vec![Written::new("fluid", &[coefficients(scene, fluid)])];
+    if fluid.materials.len() > 1 {
+        written.push(Written::new("materials", &materials(fluid)));
+    }
+    written
+}
 
 pub(super) fn kernel_file(kernel: Kernel) -> &'static str {
     match kernel {
@@ -34,14 +123,15 @@ pub(super) fn kernel_file(kernel: Kernel) -> &'static str {
     }
 }
 
-/// What a fluid needs. `columns` are those that somebody asked for, `statistics` whether figures over it are.
-pub fn plan(
-    scene: &Scene,
-    fluid: &scene::fluid::Fluid,
-    columns: &[Column],
-    statistics: bool,
-    variant: &mut Variant,
-) -> Solver {
+/// What a fluid needs.
+fn plan(request: &Request, variant: &mut Variant) -> Solver {
+    let &Request {
+        scene,
+        columns,
+        statistics,
+        ..
+    } = request;
+    let fluid = given(&scene.matter);
     let viscous = fluid.materials.iter().any(|material| material.viscosity > 0.0);
     let stress = viscous && fluid.viscosity_form == ViscosityForm::Stress;
     let tension = fluid.has_surface_tension();
@@ -117,7 +207,10 @@ pub fn plan(
     }
     let measured = super::measured(scene, columns, variant);
 
-    let mut solver = Solver::default();
+    let mut solver = Solver {
+        obstacles: Obstacles::of_boundary_particles(scene),
+        ..Solver::default()
+    };
     let each = u64::from(scene.capacity);
     let matrix = [0, 0, 16, 48][scene.dimensions.count()];
     let vector = PACKED_BYTES;
@@ -151,11 +244,11 @@ pub fn plan(
     ));
     if planes {
         let why = "sides of the domain beyond which the fluid goes on";
-        buffers.push(BufferPlan::uniform("planes", Planes::LAYOUT.size, why));
+        buffers.push(BufferPlan::constant("planes", &planes_of(scene, fluid), why));
     }
     if rim {
         let why = "where closed sides go on beyond open ones";
-        buffers.push(BufferPlan::uniform("rim", Rim::LAYOUT.size, why));
+        buffers.push(BufferPlan::constant("rim", &rim_of(scene, fluid), why));
     }
     if several {
         let count = fluid.materials.len() as u64;
@@ -167,9 +260,8 @@ pub fn plan(
         ));
     }
     if walls {
-        let count = scene.walls.len() as u64;
         let why = "boundary particles: velocity of the surface, and whose they are";
-        buffers.push(BufferPlan::storage("boundary", count, 16, why));
+        buffers.push(BufferPlan::table("boundary", &boundary(scene), why));
     }
     if moving {
         let count = scene.colliders.len() as u64;
@@ -229,11 +321,7 @@ pub fn plan(
         buffers.extend(super::accelerations(scene));
     }
     if statistics {
-        buffers.push(BufferPlan::uniform(
-            "measure",
-            Measure::LAYOUT.size,
-            "where energies are zero",
-        ));
+        buffers.push(BufferPlan::constant("measure", &measure(scene), "where energies are zero"));
     }
     if statistics || !measured.is_empty() {
         let why = "energies, densities and measured columns, once a frame";
@@ -244,7 +332,7 @@ pub fn plan(
 }
 
 /// The fluid's numbers for the shaders.
-pub fn coefficients(scene: &Scene, fluid: &scene::fluid::Fluid) -> Fluid {
+pub(super) fn coefficients(scene: &Scene, fluid: &scene::fluid::Fluid) -> Fluid {
     let dimensions = scene.dimensions.count();
     let h = fluid.smoothing();
     // Of an incompressible fluid a lattice at rest has exactly rest density, or it would begin by spreading.
@@ -295,7 +383,7 @@ fn stiffness(fluid: &scene::fluid::Fluid, density: f64) -> f32 {
     (density * fluid.sound_speed * fluid.sound_speed / f64::from(fluid.gamma)) as f32
 }
 
-pub fn materials(fluid: &scene::fluid::Fluid) -> Vec<Material> {
+fn materials(fluid: &scene::fluid::Fluid) -> Vec<Material> {
     let each = fluid.materials.iter().map(|material| Material {
         density: material.density as f32,
         viscosity: material.viscosity as f32,
@@ -311,7 +399,7 @@ fn plane_cells(fluid: &scene::fluid::Fluid) -> u32 {
 }
 
 /// The sides that are planes.
-pub fn planes(scene: &Scene, fluid: &scene::fluid::Fluid) -> Planes {
+fn planes_of(scene: &Scene, fluid: &scene::fluid::Fluid) -> Planes {
     let (lower, upper) = bounds(scene, |wall| wall == Wall::Planes, 0.0);
     let velocity = scene
         .walls
@@ -334,7 +422,7 @@ pub fn planes(scene: &Scene, fluid: &scene::fluid::Fluid) -> Planes {
 }
 
 /// Sides of boundary particles, half a spacing inside, and open ones.
-pub fn rim(scene: &Scene, fluid: &scene::fluid::Fluid) -> Rim {
+pub(super) fn rim_of(scene: &Scene, fluid: &scene::fluid::Fluid) -> Rim {
     let inset = 0.5 * fluid.spacing as f32;
     let (lower, upper) = bounds(scene, |wall| wall == Wall::Particles, inset);
     let (open_lower, open_upper) = bounds(scene, |wall| wall == Wall::Open, 0.0);
@@ -347,7 +435,7 @@ pub fn rim(scene: &Scene, fluid: &scene::fluid::Fluid) -> Rim {
 }
 
 /// Surface velocity of each boundary particle, and the number of its body.
-pub fn boundary(scene: &Scene) -> Vec<[f32; 4]> {
+pub(super) fn boundary(scene: &Scene) -> Vec<[f32; 4]> {
     let walls = &scene.walls;
     let each = walls.surface_velocity.iter().zip(&walls.body);
     each.map(|(v, &body)| {
@@ -357,7 +445,7 @@ pub fn boundary(scene: &Scene) -> Vec<[f32; 4]> {
     .collect()
 }
 
-pub fn measure(scene: &Scene) -> Measure {
+pub(super) fn measure(scene: &Scene) -> Measure {
     let Vec3 { x, y, z } = scene.domain.min;
     Measure {
         reference: [x, y, z, 0.0],

@@ -6,7 +6,10 @@ pub mod dfsph;
 pub mod fluid;
 pub mod kernels;
 pub mod layout;
+mod model;
 pub mod pace;
+
+pub use model::{FromState, MODELS, Model, OwnFigures, Request, Solver, Written, model};
 
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::scene::Scene;
@@ -36,16 +39,4 @@ fn accelerations(scene: &Scene) -> [BufferPlan; 2] {
         column("acceleration", "velocity Verlet needs the last accelerations"),
         column("next_acceleration", "accelerations, before reordering"),
     ]
-}
-
-/// What a solver contributes to a plan, around the neighbor search of a step.
-#[derive(Default)]
-pub struct Solver {
-    pub buffers: Vec<BufferPlan>,
-    /// From `position` and the other columns to `next_position` and so on.
-    pub before_search: Vec<PassPlan>,
-    /// On the particles as the search left them.
-    pub after_search: Vec<PassPlan>,
-    /// Once a frame, when somebody asks for what it measures.
-    pub measure: Vec<PassPlan>,
 }

@@ -17,27 +17,27 @@ const ENDLESS: f64 = 1e15;
 
 /// The buffers of an adaptive step.
 pub fn plan(scene: &Scene, variant: &mut Variant) -> Vec<BufferPlan> {
-    if scene.time.adaptive.is_none() {
+    variant.flag(FLAG, scene.time.adaptive.is_some());
+    let Some(limits) = &scene.time.adaptive else {
         return Vec::new();
-    }
-    variant.flag(FLAG, true);
+    };
     vec![
-        BufferPlan::storage("pace", 1, Pace::LAYOUT.size as u64, "time, and lengths of steps"),
+        BufferPlan::storage("pace", 1, Pace::LAYOUT.size as u64, "time, and lengths of steps").reported(),
         BufferPlan::storage(
             "extremes",
             1,
             Extremes::LAYOUT.size as u64,
             "the fastest particle and the greatest acceleration of a step",
         ),
-        BufferPlan::uniform(
+        BufferPlan::constant(
             "pace_limits",
-            PaceLimits::LAYOUT.size,
+            &device_limits(limits),
             "what limits the length of a step",
         ),
     ]
 }
 
-pub fn limits(limits: &StepLimits) -> PaceLimits {
+fn device_limits(limits: &StepLimits) -> PaceLimits {
     PaceLimits {
         constant: limits.constant.0.min(ENDLESS) as f32,
         way: limits.way as f32,

@@ -16,11 +16,11 @@ use crate::gpu::{BufferPlan, DISPATCHES, Demand, Items, Limits, PassPlan, Varian
 use crate::neighbors::{self, Grid, lists};
 use crate::physics::collider::Obstacles;
 use crate::physics::layout::{Clock, Guard, Occupancy, PACKED_BYTES, Parameters, Sums};
-use crate::physics::{dem, dfsph, fluid, pace};
+use crate::physics::{self, Model, Request, dem, pace};
 use crate::render;
 use crate::scene::column::{Column, Source};
-use crate::scene::model::{FluidSolver, View};
-use crate::scene::{Dimensions, Matter, Scene};
+use crate::scene::model::View;
+use crate::scene::{Dimensions, Scene};
 
 /// What is wanted of a run besides simulating; what nobody wants has no pass and no buffer.
 #[derive(Debug, Clone, Default)]
@@ -135,6 +135,8 @@ pub struct Plan {
     #[serde(skip)]
     pub grid: Grid,
     #[serde(skip)]
+    pub model: &'static Model,
+    #[serde(skip)]
     pub obstacles: Obstacles,
     #[serde(skip)]
     pub wanted: Wanted,
@@ -213,22 +215,15 @@ impl Plan {
                 "leave the column `material` out, or describe several fluids in fluid.materials",
             ));
         }
-        let obstacles = Obstacles::new(scene);
         let search = neighbors::plan(scene, grid, &mut variant);
-        let solver = match &scene.matter {
-            Matter::Grains(grains) => dem::plan(
-                scene,
-                grains,
-                &obstacles,
-                &columns,
-                wanted.statistics,
-                &mut variant,
-            ),
-            Matter::Fluid(fluid) if fluid.solver == FluidSolver::Dfsph => {
-                dfsph::plan(scene, fluid, &columns, wanted.statistics, &mut variant)
-            }
-            Matter::Fluid(fluid) => fluid::plan(scene, fluid, &columns, wanted.statistics, &mut variant),
+        let model = physics::model(&scene.matter);
+        let request = Request {
+            scene,
+            columns: &columns,
+            statistics: wanted.statistics,
+            grid: &search.grid,
         };
+        let solver = (model.plan)(&request, &mut variant);
 
         let [start, step] = if lists::wanted(scene) {
             lists::phases(
@@ -329,11 +324,12 @@ impl Plan {
             textures,
             passes,
             draws,
-            notes: [obstacles.notes.clone(), search.notes].concat(),
+            notes: [solver.notes, search.notes].concat(),
             lists_left_out: None,
             variant,
             grid: search.grid,
-            obstacles,
+            model,
+            obstacles: solver.obstacles,
             wanted: wanted.clone(),
         };
         plan.check_sizes(limits)?;
@@ -429,12 +425,11 @@ impl Plan {
         entries.div_ceil(u64::from(SCAN_THREADS * SCAN_ITEMS)) as u32
     }
 
-    /// What the shaders of a phase's passes are made of. Once a frame, when particles have just been searched, grains look
-    /// at the voxels.
+    /// What the shaders of a phase's passes are made of. Once a frame, when particles have just been searched, measures may
+    /// look at the voxels.
     pub fn variant_of(&self, phase: Phase) -> Variant {
         let mut variant = self.variant.clone();
-        let fluid = variant.flags.contains(fluid::FLAG);
-        if phase == Phase::Observe && !fluid {
+        if phase == Phase::Observe && self.model.measures_by_voxels {
             variant.role("candidates", neighbors::FROM_VOXELS);
         }
         variant
@@ -477,6 +472,13 @@ fn column_bytes(scene: &Scene, column: &Column) -> u64 {
 
 /// Buffers of every simulation.
 fn state_buffers(scene: &Scene) -> Vec<BufferPlan> {
+    let (lower, upper) = dem::guard_bounds(scene);
+    let guard = Guard {
+        lower,
+        upper,
+        step: u32::MAX,
+        ..Default::default()
+    };
     let vector = PACKED_BYTES;
     let column =
         |name: &str, bytes, why: &str| BufferPlan::storage(name, u64::from(scene.capacity), bytes, why);
@@ -501,13 +503,9 @@ fn state_buffers(scene: &Scene) -> Vec<BufferPlan> {
             1,
             Clock::LAYOUT.size as u64,
             "steps done, for the guard and moving obstacles",
-        ),
-        BufferPlan::storage(
-            "guard",
-            1,
-            Guard::LAYOUT.size as u64,
-            "the first particle that went wrong, if any",
-        ),
+        )
+        .reported(),
+        BufferPlan::table("guard", &[guard], "the first particle that went wrong, if any").reported(),
     ]
 }
 
@@ -522,13 +520,14 @@ fn statistics(scene: &Scene) -> (Vec<BufferPlan>, Vec<PassPlan>) {
             sums,
             "sums of workgroups, added in a fixed order",
         ),
-        BufferPlan::storage("sums", 1, sums, "figures over all particles"),
+        BufferPlan::storage("sums", 1, sums, "figures over all particles").reported(),
         BufferPlan::storage(
             "occupancy_count",
             1,
             Occupancy::LAYOUT.size as u64,
             "how full the voxels are",
-        ),
+        )
+        .reported_from(0),
     ];
     let passes = vec![
         PassPlan::new(

@@ -257,6 +257,9 @@ impl Fluid {
         self.spacing.powi(dimensions.count() as i32)
     }
 
+    /// Takes over what an event changes.
+    pub(super) fn change(&mut self, _: &model::Change) {}
+
     pub fn has_surface_tension(&self) -> bool {
         self.materials
             .iter()

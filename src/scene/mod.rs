@@ -98,16 +98,38 @@ impl Scene {
     }
 
     pub fn grains(&self) -> Option<&Grains> {
-        match &self.matter {
-            Matter::Grains(grains) => Some(grains),
-            Matter::Fluid(_) => None,
-        }
+        self.matter.grains()
     }
 
     pub fn fluid(&self) -> Option<&Fluid> {
-        match &self.matter {
-            Matter::Grains(_) => None,
-            Matter::Fluid(fluid) => Some(fluid),
+        self.matter.fluid()
+    }
+
+    /// What particles are at the start and after each change, in order of time.
+    pub fn matters(&self) -> impl Iterator<Item = &Matter> {
+        let later = self
+            .schedule
+            .iter()
+            .filter_map(|scheduled| match &scheduled.action {
+                Action::SetParameters { matter, .. } => Some(matter),
+                Action::Add(_) => None,
+            });
+        std::iter::once(&self.matter).chain(later)
+    }
+
+    /// Neighbors of a particle within `reach` times the search radius: in a dense packing of equal spheres, or on a
+    /// lattice as wide as a fluid's spacing.
+    pub fn usual_neighbors(&self, reach: f64) -> f64 {
+        let (touching, ball, dimensions) = match self.dimensions {
+            Dimensions::Two => (6.0, std::f64::consts::PI, 2),
+            Dimensions::Three => (12.0, 4.0 / 3.0 * std::f64::consts::PI, 3),
+        };
+        match self.matter {
+            Matter::Grains(_) => touching * f64::powi(reach, dimensions),
+            Matter::Fluid(_) => {
+                let radii = self.search_radius() / (2.0 * self.radius()) * reach;
+                ball * f64::powi(radii, dimensions)
+            }
         }
     }
 
@@ -135,6 +157,31 @@ impl Scene {
 pub enum Matter {
     Grains(Grains),
     Fluid(Fluid),
+}
+
+impl Matter {
+    /// Takes over what an event changes; grains get the contact law that holds from then on.
+    fn change(&mut self, contact: Option<Contact>, change: &model::Change) {
+        match (self, contact) {
+            (Self::Grains(grains), Some(contact)) => grains.contact = contact,
+            (Self::Fluid(fluid), _) => fluid.change(change),
+            (Self::Grains(_), None) => {}
+        }
+    }
+
+    pub fn grains(&self) -> Option<&Grains> {
+        match self {
+            Self::Grains(grains) => Some(grains),
+            Self::Fluid(_) => None,
+        }
+    }
+
+    pub fn fluid(&self) -> Option<&Fluid> {
+        match self {
+            Self::Grains(_) => None,
+            Self::Fluid(fluid) => Some(fluid),
+        }
+    }
 }
 
 /// What a scene was loaded from: loading it again gives the same scene, to the bit.
@@ -291,11 +338,7 @@ pub struct Scheduled {
 #[derive(Debug, Clone)]
 pub enum Action {
     /// From now on these hold.
-    SetParameters {
-        gravity: Vec3,
-        /// Of grains.
-        contact: Option<Contact>,
-    },
+    SetParameters { gravity: Vec3, matter: Matter },
     /// New particles; their ids follow those that exist.
     Add(Particles),
 }
@@ -319,6 +362,8 @@ pub struct Neighbors {
     pub quarantine_distance: Option<f64>,
     /// Whether the order of particles must be the same in every run.
     pub deterministic: bool,
+    /// Whether lists are made in every step, for a solver that goes over them many times before particles move.
+    pub lists_every_step: bool,
 }
 
 /// The share of the search radius that made runs fastest where it was measured.
@@ -340,6 +385,7 @@ impl From<&model::Neighbors> for Neighbors {
             margin: given.margin,
             quarantine_distance: given.quarantine_distance,
             deterministic: given.deterministic,
+            lists_every_step: false,
         }
     }
 }
@@ -382,6 +428,24 @@ pub struct StepLimits {
     pub sound_speed: f64,
     /// Of a fluid, m/s; 0 for grains.
     pub expected_speed: f64,
+}
+
+impl StepLimits {
+    /// What both allow.
+    fn strictest(self, other: Self) -> Self {
+        Self {
+            expected: self.expected.min(other.expected),
+            constant: if other.constant.0 < self.constant.0 {
+                other.constant
+            } else {
+                self.constant
+            },
+            way: self.way.min(other.way),
+            fall: self.fall.min(other.fall),
+            sound_speed: self.sound_speed.max(other.sound_speed),
+            expected_speed: self.expected_speed.max(other.expected_speed),
+        }
+    }
 }
 
 /// How values become colors.

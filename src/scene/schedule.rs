@@ -1,6 +1,6 @@
 //! Events and emitters, unrolled into what happens at which time.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
@@ -9,45 +9,84 @@ use super::contact::Law;
 use super::emission;
 use super::fluid;
 use super::frame::{Frame, Report};
-use super::model::{Emitter, Event, SceneFile};
+use super::model::{Change, Emitter, Event, SceneFile};
 use super::motion::{self, Shift};
 use super::shapes::{self, Region};
 use super::text::{number, suggest};
-use super::{Action, Collider, Contact, Particles, Scheduled};
+use super::{Action, Collider, Contact, Matter, Particles, Scheduled};
 
 /// An emitter's layers of grains stand this many radii apart when the scene does not say: a tenth more than touching. A
 /// fluid's stand one spacing apart.
 const DEFAULT_SPACING_RADII: f64 = 2.2;
 
-pub struct Schedule {
-    /// By time.
-    pub actions: Vec<Scheduled>,
+/// What happens, before it is known what particles are at the start.
+pub struct Schedule<'a> {
+    /// By time, seconds.
+    due: Vec<(f64, Due<'a>)>,
+}
+
+enum Due<'a> {
+    Set {
+        gravity: Vec3,
+        /// Of grains, after the change.
+        contact: Option<Contact>,
+        change: &'a Change,
+    },
+    Add(Particles),
+}
+
+impl Schedule<'_> {
     /// The contact law after each change.
-    pub contacts: Vec<Contact>,
+    pub fn contacts(&self) -> impl Iterator<Item = Contact> {
+        self.due.iter().filter_map(|(_, due)| match due {
+            Due::Set { contact, .. } => *contact,
+            Due::Add(_) => None,
+        })
+    }
+
+    /// What happens to particles that begin as `matter`.
+    pub fn actions(self, mut matter: Matter) -> Vec<Scheduled> {
+        let mut act = |due: Due| match due {
+            Due::Add(particles) => Action::Add(particles),
+            Due::Set {
+                gravity,
+                contact,
+                change,
+            } => {
+                matter.change(contact, change);
+                let matter = matter.clone();
+                Action::SetParameters { gravity, matter }
+            }
+        };
+        let scheduled = self.due.into_iter().map(|(time, due)| Scheduled {
+            time,
+            action: act(due),
+        });
+        scheduled.collect()
+    }
 }
 
 /// Everything that happens before `end`, in seconds; moves lengthen the colliders' paths.
-pub fn schedule(
-    file: &SceneFile,
-    frame: &Frame,
+pub fn schedule<'a>(
+    file: &'a SceneFile,
+    frame: &'a Frame,
     law: Option<Law>,
     mass: f64,
     end: f64,
     colliders: &mut [Collider],
     report: &mut Report,
-) -> Schedule {
+) -> Schedule<'a> {
     let mut unroll = Unroll {
         file,
         frame,
         mass,
         law,
         gravity: report.vector("gravity", &file.gravity, frame.dimensions),
-        actions: Vec::new(),
-        contacts: Vec::new(),
+        due: Vec::new(),
         switches: vec![Vec::new(); file.emitters.len()],
         moves: vec![Vec::new(); colliders.len()],
     };
-    let mut order: Vec<(usize, &Event)> = file.events.iter().enumerate().collect();
+    let mut order: Vec<(usize, &'a Event)> = file.events.iter().enumerate().collect();
     order.sort_by(|(_, a), (_, b)| a.at.total_cmp(&b.at));
     for (i, event) in order {
         let path = format!("events[{i}]");
@@ -66,11 +105,8 @@ pub fn schedule(
     for (collider, moves) in colliders.iter_mut().zip(&unroll.moves) {
         motion::add(collider, moves);
     }
-    unroll.actions.sort_by(|a, b| a.time.total_cmp(&b.time));
-    Schedule {
-        actions: unroll.actions,
-        contacts: unroll.contacts,
-    }
+    unroll.due.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    Schedule { due: unroll.due }
 }
 
 struct Unroll<'a> {
@@ -79,19 +115,18 @@ struct Unroll<'a> {
     mass: f64,
     law: Option<Law>,
     gravity: DVec3,
-    actions: Vec<Scheduled>,
-    contacts: Vec<Contact>,
+    due: Vec<(f64, Due<'a>)>,
     /// By emitter: when it is switched on or off.
     switches: Vec<Vec<(f64, bool)>>,
     /// By collider.
     moves: Vec<Vec<Shift>>,
 }
 
-impl Unroll<'_> {
+impl<'a> Unroll<'a> {
     fn event(
         &mut self,
         path: &str,
-        event: &Event,
+        event: &'a Event,
         happens: bool,
         colliders: &[Collider],
         report: &mut Report,
@@ -104,7 +139,6 @@ impl Unroll<'_> {
             report.problem(path, "does nothing", "add `set`, `drop`, `emitter` or `move`");
         }
         let time = event.at;
-        let act = |action: Action| Scheduled { time, action };
         if let Some(change) = &event.set {
             let place = format!("{path}.set");
             let law = match self.law {
@@ -124,15 +158,21 @@ impl Unroll<'_> {
             if happens {
                 (self.law, self.gravity) = (law, gravity);
                 let contact = law.map(|law| law.contact(self.mass));
-                self.contacts.extend(contact);
                 let gravity = gravity.as_vec3();
-                self.actions.push(act(Action::SetParameters { gravity, contact }));
+                self.due.push((
+                    time,
+                    Due::Set {
+                        gravity,
+                        contact,
+                        change,
+                    },
+                ));
             }
         }
         if event.drop.is_some() {
             let ball = self.drop(&format!("{path}.drop"), event, report);
             if let (Some(ball), true) = (ball, happens) {
-                self.actions.push(act(Action::Add(ball)));
+                self.due.push((time, Due::Add(ball)));
             }
         }
         if let Some(switch) = &event.emitter {
@@ -292,10 +332,9 @@ impl Unroll<'_> {
         }
         for flow in &flows {
             for n in 0..layers(flow) as u32 {
-                self.actions.push(Scheduled {
-                    time: flow.0 + f64::from(n) * every,
-                    action: Action::Add(self.batch(&points, velocity, material)),
-                });
+                let time = flow.0 + f64::from(n) * every;
+                let batch = self.batch(&points, velocity, material);
+                self.due.push((time, Due::Add(batch)));
             }
         }
     }

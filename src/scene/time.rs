@@ -90,13 +90,20 @@ pub fn of_grains(
     }
 }
 
-/// The step that a fluid's sound, viscosity and weight allow, and fits frames.
-pub fn of_fluid(time: &model::Time, frames: u32, fluid: &Fluid, gravity: f64, report: &mut Report) -> Time {
+/// The step that sound, viscosity and weight of a fluid allow, and fits frames. `fluids` are the fluid as it is at the
+/// start and after each change.
+pub fn of_fluid(
+    time: &model::Time,
+    frames: u32,
+    fluids: &[Fluid],
+    gravity: f64,
+    report: &mut Report,
+) -> Time {
     // Steps of an incompressible fluid follow its motion; there is no sound that would limit them beforehand.
-    let adaptive = time.adaptive || fluid.solver == model::FluidSolver::Dfsph;
-    let limits = fluid.step_limits(gravity);
-    let (shortest, limit) = limits
-        .into_iter()
+    let adaptive = time.adaptive || fluids[0].solver == model::FluidSolver::Dfsph;
+    let (shortest, limit) = fluids
+        .iter()
+        .flat_map(|fluid| fluid.step_limits(gravity))
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .expect("there are four limits");
     let (step, limited_by) = match time.step {
@@ -112,7 +119,12 @@ pub fn of_fluid(time: &model::Time, frames: u32, fluid: &Fluid, gravity: f64, re
     }
     let help = "raise `fps`, lower fluid.sound_speed, or raise fluid.spacing";
     Time {
-        adaptive: adaptive.then(|| fluid.adaptive_limits(gravity, step, time.step)),
+        adaptive: adaptive.then(|| {
+            let each = fluids
+                .iter()
+                .map(|fluid| fluid.adaptive_limits(gravity, step, time.step));
+            each.reduce(StepLimits::strictest).expect("a fluid")
+        }),
         ..fit_frames(time, frames, step, limited_by, help, report)
     }
 }

@@ -51,20 +51,18 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
     let contacts: Vec<_> = law
         .iter()
         .map(|law| law.contact(mass))
-        .chain(schedule.contacts)
+        .chain(schedule.contacts())
         .collect();
     let mut walls = Walls::default();
-    let (matter, time) = match (&file.grains, &file.fluid) {
+    let (matter, schedule, time) = match (&file.grains, &file.fluid) {
         (Some(given), _) => {
-            let grains = Grains {
+            let matter = Matter::Grains(Grains {
                 radius: given.radius,
                 mass,
                 contact: contacts[0],
-            };
-            (
-                Matter::Grains(grains),
-                time::of_grains(&file.time, frames, &contacts, mass, given.radius, &mut report),
-            )
+            });
+            let time = time::of_grains(&file.time, frames, &contacts, mass, given.radius, &mut report);
+            (matter.clone(), schedule.actions(matter), time)
         }
         (None, given) => {
             let given = given
@@ -80,15 +78,22 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
             if all_sound {
                 walls = walls::sample(&file, &frame, &colliders, fluid.wall_depth(), &mut report);
             }
-            let time = time::of_fluid(&file.time, frames, &fluid, gravity.length(), &mut report);
-            (Matter::Fluid(fluid), time)
+            let matter = Matter::Fluid(fluid.clone());
+            let actions = schedule.actions(matter.clone());
+            let later = actions.iter().filter_map(|scheduled| match &scheduled.action {
+                Action::SetParameters { matter, .. } => matter.fluid().cloned(),
+                Action::Add(_) => None,
+            });
+            let fluids: Vec<Fluid> = std::iter::once(fluid).chain(later).collect();
+            let time = time::of_fluid(&file.time, frames, &fluids, gravity.length(), &mut report);
+            (matter, actions, time)
         }
     };
     let capacity = capacity(
         &file,
         particles.len(),
         walls.len(),
-        &schedule.actions,
+        &schedule,
         &mut report,
     );
     let shifts = file.fluid.as_ref().is_some_and(|fluid| fluid.shifting > 0.0);
@@ -121,7 +126,7 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
             walls,
             capacity,
             colliders,
-            schedule: schedule.actions,
+            schedule,
             neighbors,
             time,
             render,
@@ -273,6 +278,7 @@ fn neighbors(file: &SceneFile, frame: &Frame, report: &mut Report) -> Neighbors 
         .fluid
         .as_ref()
         .is_some_and(|fluid| fluid.solver == FluidSolver::Dfsph);
+    neighbors.lists_every_step = every_step;
     if every_step {
         neighbors.skin = 0.0;
     }

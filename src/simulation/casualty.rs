@@ -14,36 +14,22 @@ impl Simulation {
         let position = local.as_dvec3() + self.scene.origin;
         let velocity = [guard.velocity[0], guard.velocity[1], guard.velocity[2]];
         let speed = velocity.iter().map(|v| v * v).sum::<f32>().sqrt();
-        let fluid = self.scene.fluid().is_some();
+        let fault = &self.plan.model.fault;
         let radii = f64::from(speed) * place.step / self.scene.radius();
         let (what, likely_cause) = match guard.kind {
             1 => (
                 "a particle's position or velocity is not a finite number",
-                if fluid {
-                    format!(
-                        "the time step of {:.3e} s is too long for the fluid's speed; raise fluid.max_speed or lower \
-                         time.step",
-                        place.step
-                    )
-                } else {
-                    format!(
-                        "the time step of {:.3e} s is too long for the contact's stiffness or damping; \
-                         lower time.step or raise time.steps_per_contact",
-                        place.step
-                    )
-                },
+                format!(
+                    "the time step of {:.3e} s is too long for {}",
+                    place.step, fault.too_long_for
+                ),
             ),
             _ => (
                 "a particle left the domain through a closed side",
                 format!(
                     "it moved {radii:.2} radii in a step of {:.3e} s, or was pressed through the wall; \
                      {}, lower time.step, or open that side",
-                    place.step,
-                    if fluid {
-                        "raise fluid.max_speed"
-                    } else {
-                        "raise grains.spring"
-                    }
+                    place.step, fault.lost
                 ),
             ),
         };

@@ -6,11 +6,11 @@ use glam::DVec3;
 
 use crate::neighbors::Grid;
 use crate::neighbors::boxes::{VoxelBox, boxes};
+use crate::physics::Model;
 use crate::physics::layout::{Convergence, Occupancy, Overflow, Packed, Sums};
 use crate::plan::{Plan, has_buffer};
 use crate::scene::Scene;
 use crate::scene::column::{Column, Source};
-use crate::scene::model::NegativePressure;
 
 /// One moment of a run, on the host.
 #[derive(Debug, Clone, Default)]
@@ -114,11 +114,13 @@ impl AdaptiveSteps {
 impl Statistics {
     pub(super) fn new(
         scene: &Scene,
+        model: &Model,
         particles: u32,
         sums: Sums,
         occupancy: Occupancy,
         overflow: Overflow,
     ) -> Self {
+        let own = (model.sums)(scene, particles, &sums);
         let [_, one, two, three, four, more] = occupancy.holding;
         Self {
             kinetic_energy: f64::from(sums.kinetic_energy),
@@ -126,16 +128,8 @@ impl Statistics {
             max_speed: f64::from(sums.max_speed),
             max_overlap: f64::from(sums.max_overlap) / scene.radius(),
             contacts: u64::from(sums.contacts),
-            density_error: scene.fluid().map(|_| {
-                [
-                    f64::from(sums.density_error) / f64::from(particles.max(1)),
-                    f64::from(sums.max_density_error),
-                ]
-            }),
-            clamped: scene
-                .fluid()
-                .filter(|fluid| fluid.negative_pressure == NegativePressure::Clamp)
-                .map(|_| [sums.clamped_pressures, sums.clamped_densities]),
+            density_error: own.density_error,
+            clamped: own.clamped,
             voxels_allocated: occupancy.voxels,
             voxels_occupied: one + two + three + four + more,
             voxels_with: [one, two, three, four],

@@ -6,7 +6,7 @@ use glam::Vec3;
 use super::Simulation;
 use super::passes::Passes;
 use crate::error::{Error, Result};
-use crate::gpu::readback;
+use crate::gpu::{Contents, readback};
 use crate::neighbors::layout::SearchState;
 use crate::neighbors::{self, Grid, Room, lists};
 use crate::physics::layout::{Clock, Packed};
@@ -135,8 +135,7 @@ impl Simulation {
                 self.buffers.remove(&buffer.name);
             }
         }
-        self.rebuild(plan)?;
-        self.write_measure()
+        self.rebuild(plan)
     }
 
     /// Gives the search exactly the room that its last one needed, for comparing policies; normally buffers only grow.
@@ -157,9 +156,15 @@ impl Simulation {
         let empty = |grid: Grid| grid.with_room(Room::default());
         let same_voxels = empty(plan.grid) == empty(self.plan.grid);
         for buffer in &plan.buffers {
+            let is_pattern = matches!(buffer.contents, Contents::Pattern(_));
             let before = self.plan.buffers.iter().find(|b| b.name == buffer.name);
-            if !same_voxels && !buffer.fill.is_empty() || before.is_none_or(|b| b.bytes != buffer.bytes) {
-                self.buffers.make(&self.gpu, buffer)?;
+            match before {
+                Some(before) if before.bytes == buffer.bytes && (same_voxels || !is_pattern) => {
+                    if before.contents != buffer.contents {
+                        self.buffers.fill(&self.gpu, buffer)?;
+                    }
+                }
+                _ => self.buffers.make(&self.gpu, buffer)?,
             }
         }
         self.passes = Passes::new(&self.gpu, &plan, &self.buffers, &mut self.kernels)?;
@@ -173,7 +178,6 @@ impl Simulation {
             _ => {}
         }
         self.plan = plan;
-        self.buffers.write(&self.gpu, "grid", 0, &[self.plan.grid])?;
         let dispatch = self
             .plan
             .dispatch(self.count, self.free_particles(), &self.gpu.limits);

@@ -14,6 +14,7 @@ mod submissions;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use glam::Vec3;
 
@@ -24,17 +25,14 @@ pub use state::State;
 use crate::error::{Error, Result};
 use crate::gpu::readback::Ring;
 use crate::gpu::timing::Timer;
-use crate::gpu::{Buffers, Gpu};
-use crate::neighbors::layout::SearchState;
+use crate::gpu::{BufferPlan, Buffers, Gpu};
 use crate::neighbors::{Grid, boxes, lists};
 use crate::physics::collider::offset_at;
-use crate::physics::layout::{
-    Clock, Convergence, Guard, Occupancy, Overflow, PACKED_BYTES, Pace, Parameters, Sums,
-};
-use crate::physics::{self, dem, dfsph, fluid};
+use crate::physics::Written;
+use crate::physics::layout::{Clock, Guard, Occupancy, Overflow, PACKED_BYTES, Pace, Parameters, Sums};
 use crate::plan::Plan;
 use crate::render::Renderer;
-use crate::scene::{self, Action, Matter, Scene};
+use crate::scene::{Action, Matter, Scene};
 use passes::{Kernels, Passes, Step, recorded};
 use segments::{Segment, segments};
 use submissions::Submissions;
@@ -59,8 +57,8 @@ pub struct Simulation {
     /// Particles that exist, boundary particles included.
     count: u32,
     gravity: Vec3,
-    /// Of grains.
-    contact: Option<scene::Contact>,
+    /// What particles are by now.
+    matter: Matter,
     /// Events that have happened.
     happened: usize,
     submissions: RefCell<Submissions>,
@@ -95,8 +93,17 @@ struct Pending {
     pass_ms: Vec<(String, f64)>,
     /// As it was; it may grow or turn before the frame arrives.
     grid: Grid,
-    /// Name and bytes of each part of the staging buffer, in order.
-    parts: Vec<(&'static str, u64)>,
+    /// Of the staging buffer, in order.
+    parts: Vec<Part>,
+}
+
+/// The beginning of a buffer, on its way to the host.
+#[derive(Clone)]
+struct Part {
+    name: String,
+    bytes: u64,
+    /// Bytes that are zeroed behind that.
+    zeroed: Range<u64>,
 }
 
 impl Simulation {
@@ -118,7 +125,7 @@ impl Simulation {
         };
         let mut kernels = Kernels::default();
         let passes = Passes::new(&gpu, plan, &buffers, &mut kernels)?;
-        let simulation = Self {
+        Ok(Self {
             passes,
             kernels,
             buffers,
@@ -129,7 +136,7 @@ impl Simulation {
             next_frame: 0,
             count: 0,
             gravity: scene.gravity,
-            contact: scene.grains().map(|grains| grains.contact),
+            matter: scene.matter.clone(),
             happened: 0,
             submissions: RefCell::default(),
             stop: None,
@@ -144,9 +151,7 @@ impl Simulation {
             scene,
             plan: plan.clone(),
             gpu,
-        };
-        simulation.write_constants()?;
-        Ok(simulation)
+        })
     }
 
     pub fn gpu(&self) -> &Gpu {
@@ -175,67 +180,6 @@ impl Simulation {
         self.stop = asked;
     }
 
-    /// What never changes during a run.
-    fn write_constants(&self) -> Result<()> {
-        let (gpu, buffers, scene) = (&self.gpu, &self.buffers, &self.scene);
-        let (lower, upper) = dem::guard_bounds(scene);
-        let guard = Guard {
-            lower,
-            upper,
-            step: u32::MAX,
-            ..Default::default()
-        };
-        buffers.write(gpu, "guard", 0, &[guard])?;
-        buffers.write(gpu, "grid", 0, &[self.plan.grid])?;
-        if buffers.contains("contact_walls") {
-            buffers.write(gpu, "contact_walls", 0, &[dem::contact_walls(scene)])?;
-        }
-        if buffers.contains("clamp_walls") {
-            buffers.write(gpu, "clamp_walls", 0, &[dem::clamp_walls(scene)])?;
-        }
-        if let Some(limits) = &scene.time.adaptive {
-            buffers.write(gpu, "pace_limits", 0, &[physics::pace::limits(limits)])?;
-        }
-        self.write_measure()?;
-        if let Matter::Fluid(given) = &scene.matter {
-            if buffers.contains("dfsph") {
-                buffers.write(gpu, "dfsph", 0, &[dfsph::settings(scene, given)])?;
-            }
-            buffers.write(gpu, "fluid", 0, &[fluid::coefficients(scene, given)])?;
-            if buffers.contains("materials") {
-                buffers.write(gpu, "materials", 0, &fluid::materials(given))?;
-            }
-            if buffers.contains("rim") {
-                buffers.write(gpu, "rim", 0, &[fluid::rim(scene, given)])?;
-            }
-            if buffers.contains("planes") {
-                buffers.write(gpu, "planes", 0, &[fluid::planes(scene, given)])?;
-            }
-            if buffers.contains("boundary") {
-                buffers.write(gpu, "boundary", 0, &fluid::boundary(scene))?;
-            }
-        }
-        if buffers.contains("colliders") {
-            buffers.write(gpu, "colliders", 0, &self.plan.obstacles.colliders)?;
-        }
-        if buffers.contains("distance_field") {
-            buffers.write(gpu, "distance_field", 0, &self.plan.obstacles.field)?;
-        }
-        Ok(())
-    }
-
-    /// What figures are made with; it depends on the width of voxels.
-    fn write_measure(&self) -> Result<()> {
-        if !self.buffers.contains("measure") {
-            return Ok(());
-        }
-        let measure = match &self.scene.matter {
-            Matter::Grains(grains) => dem::measure(&self.scene, grains, &self.plan.grid),
-            Matter::Fluid(_) => fluid::measure(&self.scene),
-        };
-        self.buffers.write(&self.gpu, "measure", 0, &[measure])
-    }
-
     /// What events change. Takes effect with the next submission.
     fn write_parameters(&self, time_step: f64) -> Result<()> {
         let parameters = Parameters {
@@ -250,13 +194,12 @@ impl Simulation {
             .plan
             .dispatch(self.count, self.free_particles(), &self.gpu.limits);
         self.buffers.write(&self.gpu, "dispatch", 0, &dispatch)?;
-        match (&self.scene.matter, &self.contact) {
-            (Matter::Grains(grains), Some(contact)) => {
-                let contact = dem::contact_values(grains, contact);
-                self.buffers.write(&self.gpu, "contact", 0, &[contact])
-            }
-            _ => Ok(()),
-        }
+        self.write_all(&(self.plan.model.parameters)(&self.scene, &self.matter))
+    }
+
+    fn write_all(&self, all: &[Written]) -> Result<()> {
+        all.iter()
+            .try_for_each(|written| self.buffers.write(&self.gpu, written.buffer, 0, &written.bytes))
     }
 
     /// Simulates up to the next frame (frame 0 is the initial state), has it observed and drawn, and sends it on its
@@ -319,9 +262,9 @@ impl Simulation {
             self.happened += 1;
             changed = true;
             match action {
-                Action::SetParameters { gravity, contact } => {
+                Action::SetParameters { gravity, matter } => {
                     self.gravity = gravity;
-                    self.contact = contact;
+                    self.matter = matter;
                 }
                 Action::Add(particles) => self.add_particles(&particles, None)?,
             }
@@ -338,39 +281,15 @@ impl Simulation {
         if !self.plan.obstacles.moving {
             return Ok(());
         }
-        if self.buffers.contains("body_velocity") {
-            let velocity = |collider: &scene::Collider| {
-                let way = offset_at(&collider.path, segment.end_time)
-                    - offset_at(&collider.path, segment.start_time);
-                (way / (segment.end_time - segment.start_time) as f32)
-                    .extend(0.0)
-                    .to_array()
-            };
-            let velocities: Vec<[f32; 4]> = self.scene.colliders.iter().map(velocity).collect();
-            return self.buffers.write(&self.gpu, "body_velocity", 0, &velocities);
-        }
-        let mut moved = self.plan.obstacles.colliders.clone();
-        for (collider, placed) in moved.iter_mut().zip(&self.scene.colliders) {
-            let from = offset_at(&placed.path, segment.start_time);
-            let to = offset_at(&placed.path, segment.end_time);
-            let velocity = (to - from) / (segment.end_time - segment.start_time) as f32;
-            collider.offset = [from.x, from.y, from.z, 0.0];
-            collider.velocity = [velocity.x, velocity.y, velocity.z, 0.0];
-        }
-        self.buffers.write(&self.gpu, "colliders", 0, &moved)?;
-        // The first field of `Clock`.
-        self.buffers.write(&self.gpu, "clock", 0, &[0u32])
+        let (from, to) = (segment.start_time, segment.end_time);
+        let place = self.plan.model.place_obstacles;
+        self.write_all(&place(&self.scene, &self.plan.obstacles, from, to))
     }
 
     /// Searches neighbors of what stands in `next_position`, and does what a step does after its search.
     fn search(&self) -> Result<()> {
-        if self.buffers.contains("search_state") {
-            self.buffers
-                .write(&self.gpu, "search_state", 0, &[SearchState::BEFORE])?;
-        }
-        if self.buffers.contains("search_dispatch") {
-            self.buffers
-                .write(&self.gpu, "search_dispatch", 0, &[[1u32; 4]])?;
+        for buffer in self.plan.buffers.iter().filter(|buffer| buffer.renewed) {
+            self.buffers.fill(&self.gpu, buffer)?;
         }
         self.submit(&[&self.passes.start])
     }
@@ -474,9 +393,6 @@ impl Simulation {
     /// Observes, draws, and copies what is wanted into the staging ring.
     fn send_frame(&mut self, index: u32) -> Result<Option<Frame>> {
         let mut encoder = self.encoder("frame");
-        if let Ok(counted) = self.buffers.get("occupancy_count", "(host)") {
-            encoder.clear_buffer(counted, 0, None);
-        }
         let mut pass_ms = std::mem::take(&mut self.pass_ms);
         if self.count > 0 {
             if self.timer.is_some() {
@@ -502,7 +418,7 @@ impl Simulation {
         }
 
         let parts = self.parts(index);
-        let bytes = parts.iter().map(|(_, bytes)| bytes).sum();
+        let bytes = parts.iter().map(|part| part.bytes).sum();
         let pending = Pending {
             index,
             particles: self.free_particles(),
@@ -520,17 +436,13 @@ impl Simulation {
             .ring
             .send(&self.gpu, encoder, bytes, pending, |encoder, staging| {
                 let mut offset = 0;
-                for (name, bytes) in &parts {
+                for Part { name, bytes, zeroed } in &parts {
                     match buffers.get(name, "(host)") {
                         Ok(buffer) if *bytes > 0 => {
                             encoder.copy_buffer_to_buffer(buffer, 0, staging, offset, *bytes);
                             offset += bytes;
-                            if *name == "overflow" {
-                                // The second field of `Overflow` counts from frame to frame.
-                                encoder.clear_buffer(buffer, 4, Some(4));
-                            }
-                            if *name == "convergence" {
-                                encoder.clear_buffer(buffer, 0, None);
+                            if !zeroed.is_empty() {
+                                encoder.clear_buffer(buffer, zeroed.start, Some(zeroed.end - zeroed.start));
                             }
                         }
                         Ok(_) => {}
@@ -547,25 +459,23 @@ impl Simulation {
         }
     }
 
-    /// Name and bytes of what a frame brings to the host.
-    fn parts(&self, index: u32) -> Vec<(&'static str, u64)> {
-        let mut parts = vec![
-            ("guard", Guard::LAYOUT.size as u64),
-            ("clock", Clock::LAYOUT.size as u64),
-        ];
-        if self.buffers.contains("pace") {
-            parts.push(("pace", Pace::LAYOUT.size as u64));
-        }
-        if self.plan.wanted.statistics {
-            parts.push(("sums", Sums::LAYOUT.size as u64));
-            parts.push(("occupancy_count", Occupancy::LAYOUT.size as u64));
-        }
-        if self.buffers.contains("overflow") {
-            parts.push(("overflow", Overflow::LAYOUT.size as u64));
-        }
-        if self.buffers.contains("convergence") {
-            parts.push(("convergence", Convergence::LAYOUT.size as u64));
-        }
+    /// What a frame brings to the host.
+    fn parts(&self, index: u32) -> Vec<Part> {
+        let reported = |buffer: &BufferPlan| {
+            buffer.reported.clone().map(|zeroed| Part {
+                name: buffer.name.clone(),
+                bytes: buffer.bytes,
+                zeroed,
+            })
+        };
+        let mut parts: Vec<Part> = self.plan.buffers.iter().filter_map(reported).collect();
+        let mut add = |name: &str, bytes: u64| {
+            parts.push(Part {
+                name: name.to_owned(),
+                bytes,
+                zeroed: 0..0,
+            });
+        };
         let wanted = &self.plan.wanted;
         if index.is_multiple_of(wanted.columns_every.max(1)) {
             for name in frame::sources(&wanted.columns) {
@@ -573,15 +483,17 @@ impl Simulation {
                     "position" | "velocity" => PACKED_BYTES,
                     _ => 4,
                 };
-                parts.push((name, bytes * u64::from(self.count)));
+                add(name, bytes * u64::from(self.count));
             }
         }
         if let Some(side) = self.plan.wanted.voxel_map {
-            parts.push(("voxel_map", 4 * u64::from(side) * u64::from(side)));
-            parts.extend(boxes::record(&self.scene, &self.plan.grid));
+            add("voxel_map", 4 * u64::from(side) * u64::from(side));
+            if let Some((name, bytes)) = boxes::record(&self.scene, &self.plan.grid) {
+                add(name, bytes);
+            }
         }
         if self.renderer.is_some() {
-            parts.push(("frame_pixels", self.plan.picture_bytes));
+            add("frame_pixels", self.plan.picture_bytes);
         }
         parts
     }
@@ -590,9 +502,9 @@ impl Simulation {
     fn receive(&self, bytes: &[u8], pending: Pending) -> Result<Frame> {
         let mut by_name = BTreeMap::new();
         let mut offset = 0;
-        for (name, size) in &pending.parts {
-            let end = offset + *size as usize;
-            by_name.insert(*name, &bytes[offset..end]);
+        for part in &pending.parts {
+            let end = offset + part.bytes as usize;
+            by_name.insert(part.name.as_str(), &bytes[offset..end]);
             offset = end;
         }
         let clock: Clock = bytemuck::pod_read_unaligned(by_name["clock"]);
@@ -609,7 +521,7 @@ impl Simulation {
         let statistics = self.plan.wanted.statistics.then(|| {
             let sums: Sums = bytemuck::pod_read_unaligned(by_name["sums"]);
             let occupancy: Occupancy = bytemuck::pod_read_unaligned(by_name["occupancy_count"]);
-            Statistics::new(&self.scene, pending.particles, sums, occupancy, overflow)
+            Statistics::new(&self.scene, self.plan.model, pending.particles, sums, occupancy, overflow)
         });
         let time = &self.scene.time;
         let adaptive = self.adaptive_steps(pace.as_ref());

@@ -191,10 +191,11 @@ impl Simulation {
         self.count = state.particles;
         self.happened = happened(&self.scene, state.frame);
         self.gravity = self.scene.gravity;
-        self.contact = self.scene.grains().map(|grains| grains.contact);
+        self.matter = self.scene.matter.clone();
         for scheduled in &self.scene.schedule[..self.happened] {
-            if let Action::SetParameters { gravity, contact } = &scheduled.action {
-                (self.gravity, self.contact) = (*gravity, *contact);
+            if let Action::SetParameters { gravity, matter } = &scheduled.action {
+                self.gravity = *gravity;
+                self.matter.clone_from(matter);
             }
         }
         let interval = state.frame.checked_sub(1);

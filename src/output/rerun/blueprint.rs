@@ -14,6 +14,7 @@ use glam::{DMat3, DVec3};
 
 use super::series::{Group, groups};
 use super::target::APPLICATION;
+use crate::physics;
 use crate::render::{Layout, Sight};
 use crate::scene::model::Storage;
 use crate::scene::{Dimensions, Scene};
@@ -101,7 +102,7 @@ fn arrange(view: ContainerLike, scene: &Scene, contents: &Contents) -> Container
             .with_origin(format!("statistics/{}", group.name))
             .into()
     };
-    let mut groups = groups(scene.fluid().is_some(), contents.statistics);
+    let mut groups = groups(physics::model(&scene.matter).figures, contents.statistics);
     let mut plots: Vec<ContainerLike> = groups.by_ref().take(PLOTS).map(curves).collect();
     if contents.statistics {
         plots.push(

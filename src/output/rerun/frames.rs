@@ -17,6 +17,7 @@ use crate::error::Result;
 use crate::output::health::Health;
 use crate::output::png::compose;
 use crate::output::statistics;
+use crate::physics;
 use crate::physics::collider::offset_at;
 use crate::render::Overlay;
 use crate::scene::model::Storage;
@@ -123,7 +124,7 @@ impl Frames {
         if let Some(rate) = rate {
             figures.insert(PARTICLE_STEPS_PER_S.into(), rate.into());
         }
-        for curves in curves(&figures, self.scene.fluid().is_some()) {
+        for curves in curves(&figures, physics::model(&self.scene.matter).figures) {
             let path = format!("statistics/{}", curves.group);
             let (values, names) = self.order.arrange(&curves);
             if let Some(names) = names {

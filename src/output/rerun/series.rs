@@ -6,40 +6,29 @@ use serde_json::{Map, Value};
 pub struct Group {
     pub name: &'static str,
     pub title: &'static str,
-    of: Of,
+    /// Whether only some solvers have it.
+    is_own: bool,
     /// Whether a run without statistics lacks it.
     is_measured: bool,
     curves: &'static [(&'static str, &'static str)],
 }
 
-/// What has these figures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Of {
-    All,
-    Grains,
-    Fluids,
-}
-
-impl Of {
-    fn fits(self, is_fluid: bool) -> bool {
-        match self {
-            Self::All => true,
-            Self::Grains => !is_fluid,
-            Self::Fluids => is_fluid,
-        }
+impl Group {
+    /// Whether a solver with such figures of its own has it.
+    fn fits(&self, own: &[&str]) -> bool {
+        !self.is_own || self.curves.iter().any(|(key, _)| own.contains(key))
     }
 }
 
 const fn group(
     name: &'static str,
     title: &'static str,
-    of: Of,
     curves: &'static [(&'static str, &'static str)],
 ) -> Group {
     Group {
         name,
         title,
-        of,
+        is_own: false,
         is_measured: false,
         curves,
     }
@@ -48,12 +37,23 @@ const fn group(
 const fn measured(
     name: &'static str,
     title: &'static str,
-    of: Of,
     curves: &'static [(&'static str, &'static str)],
 ) -> Group {
     Group {
         is_measured: true,
-        ..group(name, title, of, curves)
+        ..group(name, title, curves)
+    }
+}
+
+/// What only some solvers measure.
+const fn own(
+    name: &'static str,
+    title: &'static str,
+    curves: &'static [(&'static str, &'static str)],
+) -> Group {
+    Group {
+        is_own: true,
+        ..measured(name, title, curves)
     }
 }
 
@@ -62,16 +62,14 @@ const GROUPS: &[Group] = &[
     measured(
         "energy",
         "energy, J",
-        Of::All,
         &[
             ("kinetic_energy_j", "kinetic energy, J"),
             ("potential_energy_j", "potential energy, J"),
         ],
     ),
-    measured(
+    own(
         "density",
         "error of density",
-        Of::Fluids,
         &[
             ("density_error_mean", "mean, share of the rest density"),
             ("density_error_max", "greatest"),
@@ -80,25 +78,21 @@ const GROUPS: &[Group] = &[
     group(
         "throughput",
         "particle·steps/s",
-        Of::All,
         &[(PARTICLE_STEPS_PER_S, "particle·steps/s since the start")],
     ),
-    measured(
+    own(
         "contacts",
         "contacts",
-        Of::Grains,
         &[("contacts", "contacts as each grain sees them")],
     ),
-    measured(
+    own(
         "overlap",
         "greatest overlap",
-        Of::Grains,
         &[("max_overlap", "greatest overlap, share of the radius")],
     ),
-    measured(
+    own(
         "clamped",
         "clamped particles",
-        Of::Fluids,
         &[
             ("clamped_pressures", "pressure held at zero"),
             ("clamped_densities", "density held at its lowest"),
@@ -107,13 +101,11 @@ const GROUPS: &[Group] = &[
     measured(
         "speed",
         "greatest speed",
-        Of::All,
         &[("max_speed_m_per_s", "greatest speed, m/s")],
     ),
     measured(
         "voxels",
         "voxels",
-        Of::All,
         &[
             ("voxels_allocated", "allocated"),
             ("voxels_occupied", "occupied"),
@@ -127,7 +119,6 @@ const GROUPS: &[Group] = &[
     group(
         "overflow",
         "overflow",
-        Of::All,
         &[
             ("overflow", "particles without a slot"),
             (
@@ -139,7 +130,6 @@ const GROUPS: &[Group] = &[
     group(
         "particles",
         "particles",
-        Of::All,
         &[
             ("particles", "particles"),
             ("boundary_particles", "boundary particles"),
@@ -148,22 +138,21 @@ const GROUPS: &[Group] = &[
     group(
         "time_step",
         "time step",
-        Of::All,
         &[
             ("step_s", "time step, s"),
             ("step_min_s", "shortest since the last frame, s"),
             ("step_max_s", "longest, s"),
         ],
     ),
-    group(STEP_LIMITS, "steps by what limited them", Of::All, &[]),
-    group(PASSES, "ms of each pass", Of::All, &[]),
+    group(STEP_LIMITS, "steps by what limited them", &[]),
+    group(PASSES, "ms of each pass", &[]),
 ];
 
-/// The plots of grains or of a fluid; without statistics fewer.
-pub fn groups(is_fluid: bool, statistics: bool) -> impl Iterator<Item = &'static Group> {
+/// The plots of a solver with figures of its own ([`crate::physics::Model::figures`]); without statistics fewer.
+pub fn groups(own: &'static [&'static str], statistics: bool) -> impl Iterator<Item = &'static Group> {
     GROUPS
         .iter()
-        .filter(move |group| group.of.fits(is_fluid) && (statistics || !group.is_measured))
+        .filter(move |group| group.fits(own) && (statistics || !group.is_measured))
 }
 
 /// Key of what a run measures itself, in the place of a figure of `stats.jsonl`.
@@ -182,9 +171,9 @@ pub struct Curves {
     pub values: Vec<(String, f64)>,
 }
 
-/// The figures of grains or of a fluid by group. `figures` is the frame's line of `stats.jsonl`; a key that no group
+/// The figures of a solver by group. `figures` is the frame's line of `stats.jsonl`; a key that no group
 /// knows is a group of its own.
-pub fn curves(figures: &Map<String, Value>, is_fluid: bool) -> Vec<Curves> {
+pub fn curves(figures: &Map<String, Value>, own: &[&str]) -> Vec<Curves> {
     let mut all: Vec<Curves> = Vec::new();
     let mut add = |group: &str, name: &str, value: f64| {
         let curve = (name.to_owned(), value);
@@ -199,7 +188,7 @@ pub fn curves(figures: &Map<String, Value>, is_fluid: bool) -> Vec<Curves> {
     for (key, value) in figures.iter().filter(|(key, _)| !PLACE.contains(&key.as_str())) {
         match value {
             Value::Number(number) => {
-                if let Some((group, name)) = place(key, is_fluid) {
+                if let Some((group, name)) = place(key, own) {
                     add(group, name, number.as_f64().unwrap_or(f64::NAN));
                 }
             }
@@ -219,15 +208,15 @@ pub fn curves(figures: &Map<String, Value>, is_fluid: bool) -> Vec<Curves> {
     all
 }
 
-/// Group and name of a key's curve; `None` for what grains have and fluids have not, or the other way round.
-fn place(key: &str, is_fluid: bool) -> Option<(&str, &str)> {
-    // Grains have no boundary particles.
-    if key == "boundary_particles" && !is_fluid {
+/// Group and name of a key's curve; `None` for what only other solvers have.
+fn place<'a>(key: &'a str, own: &[&str]) -> Option<(&'a str, &'a str)> {
+    // Not every solver has boundary particles.
+    if key == "boundary_particles" && !own.contains(&key) {
         return None;
     }
     for group in GROUPS {
         if let Some((_, name)) = group.curves.iter().find(|(known, _)| *known == key) {
-            return group.of.fits(is_fluid).then_some((group.name, name));
+            return group.fits(own).then_some((group.name, name));
         }
     }
     Some((key, key))
@@ -272,6 +261,9 @@ mod tests {
 
     use super::*;
 
+    const OF_GRAINS: &[&str] = &["contacts", "max_overlap"];
+    const OF_FLUIDS: &[&str] = &["boundary_particles", "density_error_mean", "clamped_pressures"];
+
     fn figures(value: Value) -> Map<String, Value> {
         value.as_object().unwrap().clone()
     }
@@ -283,7 +275,7 @@ mod tests {
                 "frame": 3, "time_s": 0.1, "kinetic_energy_j": 2.0, "potential_energy_j": 3.0,
                 "viscosity": 0.01, "pass_ms": { "push": 1.5 },
             })),
-            false,
+            OF_GRAINS,
         );
         let groups: Vec<_> = found.iter().map(|curves| curves.group.as_str()).collect();
         assert_eq!(groups, ["energy", "viscosity", "passes"]);
@@ -292,34 +284,34 @@ mod tests {
     }
 
     #[test]
-    fn grains_and_fluids_have_their_own() {
+    fn solvers_have_their_own() {
         let line = figures(json!({
             "particles": 400, "boundary_particles": 516, "max_overlap": 0.0, "contacts": 7,
             "density_error_mean": 0.01, "density_error_max": 0.02, "clamped_pressures": 3,
         }));
-        let names = |is_fluid| -> Vec<String> {
-            curves(&line, is_fluid)
+        let names = |own| -> Vec<String> {
+            curves(&line, own)
                 .into_iter()
                 .map(|curves| curves.group)
                 .collect()
         };
-        assert_eq!(names(true), ["particles", "density", "clamped"]);
-        assert_eq!(names(false), ["particles", "overlap", "contacts"]);
+        assert_eq!(names(OF_FLUIDS), ["particles", "density", "clamped"]);
+        assert_eq!(names(OF_GRAINS), ["particles", "overlap", "contacts"]);
         assert_eq!(
-            curves(&line, true)[0].values[1],
+            curves(&line, OF_FLUIDS)[0].values[1],
             ("boundary particles".into(), 516.0)
         );
-        assert_eq!(curves(&line, false)[0].values.len(), 1);
-        let first = |is_fluid, statistics| groups(is_fluid, statistics).next().unwrap().name;
-        assert_eq!((first(true, true), first(true, false)), ("energy", "throughput"));
-        assert_eq!(groups(true, true).nth(1).unwrap().name, "density");
-        assert!(groups(true, true).all(|group| group.name != "overlap"));
+        assert_eq!(curves(&line, OF_GRAINS)[0].values.len(), 1);
+        let first = |statistics| groups(OF_FLUIDS, statistics).next().unwrap().name;
+        assert_eq!((first(true), first(false)), ("energy", "throughput"));
+        assert_eq!(groups(OF_FLUIDS, true).nth(1).unwrap().name, "density");
+        assert!(groups(OF_FLUIDS, true).all(|group| group.name != "overlap"));
     }
 
     #[test]
     fn curves_keep_their_place() {
         let mut order = Order::default();
-        let passes = |pass_ms| curves(&figures(json!({ "pass_ms": pass_ms })), false).remove(0);
+        let passes = |pass_ms| curves(&figures(json!({ "pass_ms": pass_ms })), OF_GRAINS).remove(0);
         assert_eq!(
             order.arrange(&passes(json!({ "count": 1.0 }))).1.unwrap(),
             ["count"]

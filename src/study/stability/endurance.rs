@@ -155,9 +155,6 @@ impl<'a> Seen<'a> {
 
 /// kg
 fn total_mass(scene: &Scene) -> f64 {
-    let each = match &scene.matter {
-        crate::scene::Matter::Grains(grains) => grains.mass,
-        crate::scene::Matter::Fluid(fluid) => fluid.materials[0].density * fluid.volume(scene.dimensions),
-    };
+    let each = (crate::physics::model(&scene.matter).particle_mass)(scene);
     each * scene.particles.len() as f64
 }
