@@ -3,8 +3,7 @@
 #import common/thread
 #import common/parameters
 #import cells/grid
-
-var<storage, read> next_position: array<Packed>;
+#import fields/next_position
 
 // Of a thread that has no particle.
 const NOBODY: i32 = QUARANTINE + 1;

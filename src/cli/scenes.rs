@@ -86,7 +86,7 @@ fn scenes(as_json: bool) -> Result<()> {
 }
 
 fn columns(as_json: bool) -> Result<()> {
-    let columns = VECTORS.iter().chain(COLUMNS);
+    let columns = VECTORS.iter().chain(COLUMNS.iter());
     if as_json {
         let one = |column: &Column| {
             json!({

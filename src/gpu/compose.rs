@@ -5,7 +5,8 @@
 //!   the plan chose for that role, so that physics never names a grid;
 //! - `#if flag`, `#if !flag`, `#else`, `#end` keep lines only where the plan set the flag;
 //! - `#flag name` sets a flag for this composition, for what the file imports below;
-//! - constants that the plan set stand in front as `const NAME = value;`.
+//! - constants that the plan set stand in front as `const NAME = value;`; a plan may also write whole modules, such as
+//!   those of the particles' fields, which are imported as files are.
 //!
 //! The libraries that do this (naga_oil, wesl) rename what they import; here a buffer has one name everywhere, and
 //! the reflection in [`super::reflect`] depends on that.
@@ -34,6 +35,8 @@ pub struct Variant {
     pub constants: BTreeMap<&'static str, u32>,
     /// Role → file without its ending: `addressing` → `cells/sliced`.
     pub roles: BTreeMap<&'static str, String>,
+    /// Modules that the host writes, path → text: `fields/place`.
+    pub modules: BTreeMap<String, String>,
 }
 
 impl Default for Variant {
@@ -47,6 +50,7 @@ impl Default for Variant {
             flags: BTreeSet::new(),
             constants: sizes.into(),
             roles: BTreeMap::new(),
+            modules: BTreeMap::new(),
         }
     }
 }
@@ -150,7 +154,10 @@ impl Composed {
         }
         let file = format!("{path}.wgsl");
         let fail = |what: String| Error::Shader { message: what };
-        let source = source(&file).ok_or_else(|| fail(format!("{from}: there is no shaders/{file}")))?;
+        let source = match variant.modules.get(path) {
+            Some(text) => Cow::from(text.clone()),
+            None => source(&file).ok_or_else(|| fail(format!("{from}: there is no shaders/{file}")))?,
+        };
         // One entry for each open `#if`: whether its lines are kept.
         let mut open: Vec<bool> = Vec::new();
         for (index, line) in source.lines().enumerate() {

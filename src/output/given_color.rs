@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::read_back::Snapshot;
 use crate::physics;
 use crate::scene::Scene;
+use crate::scene::field::Kind;
 use crate::simulation::State;
 
 /// Columns that follow from positions alone, and from the grid that pictures are drawn with.
@@ -43,10 +44,16 @@ fn of_state(scene: &Scene, state: &State) -> Option<Vec<f32>> {
     let material_of = |slot: usize| material.as_ref().map_or(0, |of| of[slot] as usize);
     let derived = physics::model(&scene.matter).from_state;
     let derived = derived.iter().find(|derived| derived.column == name);
-    let found: Vec<f32> = match derived {
-        Some(derived) => bytemuck::pod_collect_to_vec(state.buffer(derived.buffer)?),
-        None if name == "material" => Vec::new(),
-        None => return None,
+    let found = match derived {
+        Some(derived) => state.buffer(derived.buffer)?,
+        None => state.buffer(name)?,
+    };
+    let found: Vec<f32> = match (derived, scene.kind_of(name)) {
+        (None, Kind::Unsigned) => {
+            let numbers: Vec<u32> = bytemuck::pod_collect_to_vec(found);
+            numbers.into_iter().map(|number| number as f32).collect()
+        }
+        _ => bytemuck::pod_collect_to_vec(found),
     };
     let ids = state.ids();
     let mut values = vec![0.0; ids.len().checked_sub(scene.walls.len())?];
@@ -60,7 +67,7 @@ fn of_state(scene: &Scene, state: &State) -> Option<Vec<f32>> {
                 let own = &found[slot * derived.width..][..derived.width];
                 (derived.value)(scene, own, material_of(slot))
             }
-            None => material_of(slot) as f32,
+            None => found[slot],
         };
     }
     Some(values)

@@ -63,7 +63,7 @@ pub fn redraw(
     }
     // What the device finds by itself in any case is left to it.
     let column = scene.color.column;
-    let is_found = column.source != Source::Measured && column.name != "material" && refusal.is_ok();
+    let is_found = !column.is_field() && refusal.is_ok();
     if is_given && !is_found && !frames.is_empty() {
         scene.color.column.source = Source::Given;
     } else {
@@ -227,7 +227,8 @@ fn check_color(scene: &Scene, snapshot: &Snapshot, frame: u32) -> Result<()> {
         ));
     }
     let derived = physics::model(&scene.matter).from_state;
-    let is_of_state = column == "material" || derived.iter().any(|derived| derived.column == column);
+    let is_field = scene.color.column.source == Source::Field;
+    let is_of_state = is_field || derived.iter().any(|derived| derived.column == column);
     if is_of_state && snapshot.state.is_none() {
         return Err(Error::usage(
             format!(

@@ -48,9 +48,9 @@ pub fn has_wall(scene: &Scene, kind: Wall) -> bool {
 fn plan(request: &Request, variant: &mut Variant) -> Solver {
     let &Request {
         scene,
-        columns,
         statistics,
         grid,
+        ..
     } = request;
     let obstacles = Obstacles::new(scene);
     let given = grains(&scene.matter);
@@ -60,7 +60,6 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     let ever = |positive: fn(&scene::Contact) -> bool| {
         scene.matters().any(|matter| positive(&grains(matter).contact))
     };
-    let measured = super::measured(scene, columns, variant);
     variant
         .flag("contact_walls", contact_walls)
         .flag("clamp_walls", clamp_walls)
@@ -113,8 +112,6 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
                 .extend([pass("symplectic_euler", "move_grains", why), clock]);
         }
         Integrator::VelocityVerlet => {
-            variant.flag("accelerations", true);
-            buffers.extend(super::accelerations(scene));
             let drift = pass(
                 "drift",
                 "drift",
@@ -132,13 +129,12 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         }
     }
 
-    if statistics || !measured.is_empty() {
+    if request.measures() {
         buffers.push(BufferPlan::constant(
             "measure",
             &measure(scene, given, grid),
             "what measures are divided by",
         ));
-        buffers.extend(measured);
         let why = "contacts, energies and measured columns of each grain, once a frame";
         solver.measure.push(pass("measure", "measure_grains", why));
     }

@@ -59,34 +59,31 @@ fn parameters(scene: &Scene, matter: &Matter) -> Vec<Written> {
 /// What such a fluid needs.
 fn plan(request: &Request, variant: &mut Variant) -> Solver {
     let &Request {
-        scene,
-        columns,
-        statistics,
-        ..
+        scene, statistics, ..
     } = request;
     let fluid = given(&scene.matter);
     let walls = !scene.walls.is_empty();
     let moving = walls && scene.colliders.iter().any(|collider| !collider.path.is_empty());
     let faces = has_wall(scene, Wall::Particles);
     let rim = faces && has_wall(scene, Wall::Open);
+    // At some time during the run.
+    let ever = |has: fn(&scene::fluid::Fluid) -> bool| scene.matters().any(|matter| has(given(matter)));
+    let viscous = ever(scene::fluid::Fluid::is_viscous);
+    let damped = ever(|fluid| fluid.artificial_viscosity > 0.0);
     variant
         .flag(FLAG, true)
         .role("kernel", kernel_file(fluid.kernel))
         .constant("GAMMA", fluid.gamma)
         .flag("boundary_particles", walls)
         .flag("moving_boundaries", moving)
-        .flag("viscosity", fluid.materials[0].viscosity > 0.0)
-        .flag("artificial_viscosity", fluid.artificial_viscosity > 0.0)
-        .flag(
-            "drag",
-            fluid.artificial_viscosity > 0.0 || fluid.materials[0].viscosity > 0.0,
-        )
+        .flag("viscosity", viscous)
+        .flag("artificial_viscosity", damped)
+        .flag("drag", viscous || damped)
         .constant("ERROR_SUMS", ERROR_SUMS)
         .flag("slips", walls && fluid.slip == Slip::FreeSlip)
         .flag("rim", rim)
         .flag("faces", faces)
         .flag("statistics", statistics);
-    let measured = super::measured(scene, columns, variant);
 
     let mut solver = Solver {
         obstacles: Obstacles::of_boundary_particles(scene),
@@ -98,7 +95,6 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         false => each,
     };
     solver.buffers.extend([
-        BufferPlan::storage("fluid_state", each, 8, "density and pressure"),
         BufferPlan::storage("own", listed, 16, "what the loops keep of each particle"),
         BufferPlan::storage(
             "acting_impulse",
@@ -294,14 +290,13 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             .buffers
             .push(BufferPlan::constant("measure", &measure(scene), why));
     }
-    if statistics || !measured.is_empty() {
+    if request.measures() {
         solver.measure.push(PassPlan::new(
             "physics/fluid/measure",
             "measure_fluid",
             Items::Particles,
             "energies, densities and measured columns, once a frame",
         ));
-        solver.buffers.extend(measured);
     }
     solver
 }

@@ -8,11 +8,11 @@ use glam::Vec3;
 use super::collider::{Obstacles, velocity_between};
 use super::dem::{bounds, has_wall};
 use super::kernels;
-use super::layout::{Fluid, Material, Measure, PACKED_BYTES, Planes, Rim, Sums};
+use super::layout::{Fluid, Material, Measure, Planes, Rim, Sums};
 use super::model::{Fault, FromState, Model, OwnFigures, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::scene::model::{
-    DensityFrom, FluidSolver, Integrator, Kernel, NegativePressure, PressureForce, Slip, ViscosityForm, Wall,
+    DensityFrom, FluidSolver, Integrator, Kernel, NegativePressure, PressureForce, Slip, Wall,
 };
 use crate::scene::walls::NO_BODY;
 use crate::scene::{self, Matter, Scene};
@@ -126,27 +126,26 @@ pub(super) fn kernel_file(kernel: Kernel) -> &'static str {
 /// What a fluid needs.
 fn plan(request: &Request, variant: &mut Variant) -> Solver {
     let &Request {
-        scene,
-        columns,
-        statistics,
-        ..
+        scene, statistics, ..
     } = request;
     let fluid = given(&scene.matter);
-    let viscous = fluid.materials.iter().any(|material| material.viscosity > 0.0);
-    let stress = viscous && fluid.viscosity_form == ViscosityForm::Stress;
-    let tension = fluid.has_surface_tension();
+    // At some time during the run.
+    let ever = |has: fn(&scene::fluid::Fluid) -> bool| scene.matters().any(|matter| has(given(matter)));
+    let viscous = ever(scene::fluid::Fluid::is_viscous);
+    let stress = scene.has_field("stress");
+    let tension = scene.has_field("surface_normal");
     let walls = !scene.walls.is_empty();
     let moving = walls && scene.colliders.iter().any(|collider| !collider.path.is_empty());
     let planes = has_wall(scene, Wall::Planes);
     let rim = has_wall(scene, Wall::Particles) && has_wall(scene, Wall::Open);
-    let continuity = fluid.density_from == DensityFrom::Continuity;
-    let several = fluid.materials.len() > 1;
-    let sticks = walls && viscous && fluid.slip == Slip::NoSlip;
+    let continuity = scene.has_field("excess");
+    let several = scene.has_field("material");
+    let sticks = scene.has_field("viscous_velocity");
     let shifting = fluid.shifting > 0.0;
     let muller = fluid.kernel == Kernel::Muller;
     let slips = (walls || planes) && fluid.slip == Slip::FreeSlip;
-    let damped = fluid.artificial_viscosity > 0.0;
-    let rubs = slips && fluid.wall_friction > 0.0;
+    let damped = ever(|fluid| fluid.artificial_viscosity > 0.0);
+    let rubs = slips && ever(|fluid| fluid.wall_friction > 0.0);
     let sliding_walls = slips && (damped || rubs);
     // Walls along which fluid slips say nothing of the velocity's slope.
     let exact_laplacian = fluid.gradient_correction && viscous && !stress && !muller && !slips;
@@ -205,38 +204,12 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     if planes {
         variant.constant("PLANE_CELLS", plane_cells(fluid));
     }
-    let measured = super::measured(scene, columns, variant);
 
     let mut solver = Solver {
         obstacles: Obstacles::of_boundary_particles(scene),
         ..Solver::default()
     };
-    let each = u64::from(scene.capacity);
-    let matrix = [0, 0, 16, 48][scene.dimensions.count()];
-    let vector = PACKED_BYTES;
     let buffers = &mut solver.buffers;
-    let mut column = |wanted: bool, name: &str, bytes: u64, why: &str| {
-        if wanted {
-            buffers.push(BufferPlan::storage(name, each, bytes, why));
-        }
-    };
-    column(true, "fluid_state", 8, "density and pressure");
-    column(continuity, "excess", 4, "density that the flow carries along");
-    column(continuity, "next_excess", 4, "density, before reordering");
-    column(several, "material", 4, "which fluid a particle belongs to");
-    column(several, "next_material", 4, "which fluid, before reordering");
-    let why = "velocities that viscous forces see, walls that stick included";
-    column(sticks, "viscous_velocity", vector, why);
-    column(
-        fluid.gradient_correction,
-        "correction",
-        matrix,
-        "makes gradients exact for linear fields",
-    );
-    column(stress, "stress", matrix, "viscous stress");
-    let why = "where the surface is, and which way it faces";
-    column(tension, "surface_normal", vector, why);
-
     buffers.push(BufferPlan::uniform(
         "fluid",
         Fluid::LAYOUT.size,
@@ -317,16 +290,13 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             .after_search
             .push(pass("velocity_verlet", "sum_fluid_forces", why));
         solver.after_search.push(super::kick());
-        variant.flag("accelerations", true);
-        buffers.extend(super::accelerations(scene));
     }
     if statistics {
         buffers.push(BufferPlan::constant("measure", &measure(scene), "where energies are zero"));
     }
-    if statistics || !measured.is_empty() {
+    if request.measures() {
         let why = "energies, densities and measured columns, once a frame";
         solver.measure.push(pass("measure", "measure_fluid", why));
-        buffers.extend(measured);
     }
     solver
 }

@@ -5,7 +5,7 @@ use super::layout::Sums;
 use super::{dem, dfsph, fluid};
 use crate::gpu::{BufferPlan, PassPlan, Variant};
 use crate::neighbors::Grid;
-use crate::scene::column::Column;
+use crate::scene::column::{Column, Source};
 use crate::scene::{Matter, Scene};
 
 /// A solver. Nothing outside of `scene` and `physics` asks what particles are made of; it asks the row.
@@ -51,6 +51,13 @@ pub struct Request<'a> {
     /// Whether figures over all particles are wanted.
     pub statistics: bool,
     pub grid: &'a Grid,
+}
+
+impl Request<'_> {
+    /// Whether anything is measured once a frame.
+    pub fn measures(&self) -> bool {
+        self.statistics || self.columns.iter().any(|column| column.source == Source::Measured)
+    }
 }
 
 /// What a solver contributes to a plan, around the neighbor search of a step.

@@ -15,10 +15,10 @@ use crate::gpu::pass::{INDEX_STRIDE, fold};
 use crate::gpu::{BufferPlan, DISPATCHES, Demand, Items, Limits, PassPlan, Variant};
 use crate::neighbors::{self, Grid, lists};
 use crate::physics::collider::Obstacles;
-use crate::physics::layout::{Clock, Guard, Occupancy, PACKED_BYTES, Parameters, Sums};
-use crate::physics::{self, Model, Request, dem, pace};
+use crate::physics::layout::{Clock, Guard, Occupancy, Parameters, Sums};
+use crate::physics::{self, Model, Request, dem, fields, pace};
 use crate::render;
-use crate::scene::column::{Column, Source};
+use crate::scene::column::Column;
 use crate::scene::model::View;
 use crate::scene::{Dimensions, Scene};
 
@@ -208,8 +208,7 @@ impl Plan {
             columns.push(colored);
         }
 
-        let several = scene.fluid().is_some_and(|fluid| fluid.materials.len() > 1);
-        if !several && columns.iter().any(|column| column.name == "material") {
+        if !scene.has_field("material") && columns.iter().any(|column| column.name == "material") {
             return Err(Error::usage(
                 "all particles are of one material",
                 "leave the column `material` out, or describe several fluids in fluid.materials",
@@ -238,7 +237,8 @@ impl Plan {
             [start, step]
         };
 
-        let mut buffers = state_buffers(scene);
+        let mut buffers = fields::plan(scene, &columns, &mut variant);
+        buffers.extend(state_buffers(scene));
         buffers.extend(search.buffers);
         buffers.extend(solver.buffers);
         buffers.extend(pace::plan(scene, &mut variant));
@@ -470,7 +470,7 @@ fn column_bytes(scene: &Scene, column: &Column) -> u64 {
     each * u64::from(scene.capacity)
 }
 
-/// Buffers of every simulation.
+/// Buffers of every simulation besides its particles' fields.
 fn state_buffers(scene: &Scene) -> Vec<BufferPlan> {
     let (lower, upper) = dem::guard_bounds(scene);
     let guard = Guard {
@@ -479,20 +479,7 @@ fn state_buffers(scene: &Scene) -> Vec<BufferPlan> {
         step: u32::MAX,
         ..Default::default()
     };
-    let vector = PACKED_BYTES;
-    let column =
-        |name: &str, bytes, why: &str| BufferPlan::storage(name, u64::from(scene.capacity), bytes, why);
     vec![
-        column(
-            "position",
-            vector,
-            "state, in the order that the search made; the renderer binds it too",
-        ),
-        column("velocity", vector, "state"),
-        column("id", 4, "a particle's number, which travels with it"),
-        column("next_position", vector, "state after a step, before the search"),
-        column("next_velocity", vector, "state after a step, before the search"),
-        column("next_id", 4, "state after a step, before the search"),
         BufferPlan::uniform(
             "parameters",
             Parameters::LAYOUT.size,
@@ -544,9 +531,4 @@ fn statistics(scene: &Scene) -> (Vec<BufferPlan>, Vec<PassPlan>) {
         ),
     ];
     (buffers, passes)
-}
-
-/// Whether a column has to be read from a buffer of its own name.
-pub fn has_buffer(column: &Column) -> bool {
-    column.source == Source::Measured || matches!(column.name, "position" | "velocity" | "id" | "material")
 }

@@ -61,7 +61,13 @@ impl Style {
     pub fn variant(&self, scene: &Scene, plan: &Variant) -> Variant {
         let column = match scene.color.column.source {
             Source::Given => "render/given_column".to_owned(),
-            _ => format!("render/columns/{}", scene.color.column.name),
+            _ => {
+                let field = format!("fields/{}/color", scene.color.column.name);
+                match plan.modules.contains_key(&field) {
+                    true => field,
+                    false => format!("render/columns/{}", scene.color.column.name),
+                }
+            }
         };
         let mut variant = plan.clone();
         variant

@@ -1,13 +1,24 @@
 //! Columns: values that every particle has and that can be drawn, written or logged. Registered once, in [`COLUMNS`].
 
+use std::sync::LazyLock;
+
+use super::field::{FIELDS, Field, Kind};
+
 /// One value per particle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Column {
-    /// Name in scene files, on the command line and of the shader file `render/columns/NAME.wgsl`.
+    /// Name in scene files, on the command line, and of the shader file `render/columns/NAME.wgsl` where it is no field of one number.
     pub name: &'static str,
     pub unit: &'static str,
     pub about: &'static str,
     pub source: Source,
+}
+
+impl Column {
+    /// Whether it has a buffer of its name that nothing else needs on the host.
+    pub fn is_field(&self) -> bool {
+        matches!(self.source, Source::Field | Source::Measured)
+    }
 }
 
 /// Where a column's values come from.
@@ -15,6 +26,8 @@ pub struct Column {
 pub enum Source {
     /// Position, velocity and id: always there.
     State,
+    /// A field that only some scenes have.
+    Field,
     /// Measured at the end of a frame, by a pass that runs only when somebody asks for the column.
     Measured,
     /// The neighbor search.
@@ -32,8 +45,8 @@ const fn column(name: &'static str, unit: &'static str, about: &'static str, sou
     }
 }
 
-/// Every column there is.
-pub const COLUMNS: &[Column] = &[
+/// Columns that follow from position and velocity.
+const DERIVED: &[Column] = &[
     column("speed", "m/s", "magnitude of the velocity", Source::State),
     column(
         "x",
@@ -56,54 +69,32 @@ pub const COLUMNS: &[Column] = &[
     column("velocity_x", "m/s", "velocity along x", Source::State),
     column("velocity_y", "m/s", "velocity along y", Source::State),
     column("velocity_z", "m/s", "velocity along z", Source::State),
-    column(
-        "id",
-        "",
-        "the particle's number, stable during the run",
-        Source::State,
-    ),
-    column(
-        "contacts",
-        "",
-        "grains and walls that touch the grain; particles that a fluid particle's kernel reaches",
-        Source::Measured,
-    ),
-    column(
-        "density",
-        "kg/m³",
-        "mass of the grains in the block of voxels around, over the block's volume; of a fluid, its density",
-        Source::Measured,
-    ),
-    column(
-        "pressure",
-        "Pa",
-        "sum of the normal contact forces over the grain's surface; of a fluid, its pressure",
-        Source::Measured,
-    ),
-    column(
-        "material",
-        "",
-        "which of several fluids the particle belongs to, in the order of fluid.materials",
-        Source::State,
-    ),
-    column(
-        "slice",
-        "",
-        "voxel coordinate along the slicing axis",
-        Source::Search,
-    ),
 ];
 
+/// What the neighbor search knows of a particle.
+const SLICE: Column = column(
+    "slice",
+    "",
+    "voxel coordinate along the slicing axis",
+    Source::Search,
+);
+
+/// Every column there is: those that follow from others, and fields ([`super::field`]) of one number.
+pub static COLUMNS: LazyLock<Vec<Column>> = LazyLock::new(|| {
+    let derived = DERIVED.iter().copied();
+    derived
+        .chain(columns_of(|kind| kind != Kind::Vector))
+        .chain([SLICE])
+        .collect()
+});
+
 /// Vectors, which particle files keep whole: one row per particle.
-pub const VECTORS: &[Column] = &[
-    column(
-        "position",
-        "m",
-        "where the grain's center is, in the scene's coordinates",
-        Source::State,
-    ),
-    column("velocity", "m/s", "velocity of the grain's center", Source::State),
-];
+pub static VECTORS: LazyLock<Vec<Column>> = LazyLock::new(|| columns_of(|kind| kind == Kind::Vector).collect());
+
+fn columns_of(is_wanted: fn(Kind) -> bool) -> impl Iterator<Item = Column> {
+    let fields = FIELDS.iter().filter(move |field| is_wanted(field.kind));
+    fields.filter_map(Field::column)
+}
 
 /// The column with this name.
 pub fn find(name: &str) -> Option<Column> {

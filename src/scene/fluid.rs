@@ -260,6 +260,10 @@ impl Fluid {
     /// Takes over what an event changes.
     pub(super) fn change(&mut self, _: &model::Change) {}
 
+    pub fn is_viscous(&self) -> bool {
+        self.materials.iter().any(|material| material.viscosity > 0.0)
+    }
+
     pub fn has_surface_tension(&self) -> bool {
         self.materials
             .iter()

@@ -10,6 +10,7 @@ mod coloring;
 pub mod column;
 mod contact;
 mod emission;
+pub mod field;
 mod filling;
 mod fit;
 pub mod fluid;
@@ -46,6 +47,7 @@ use glam::{DVec3, Vec3};
 use model::{Addressing, Cell, Dashpot, Integrator, Render, SceneFile, SlicingAxis, Storage, Wall};
 
 use column::Column;
+use field::Field;
 use fluid::Fluid;
 use walls::Walls;
 
@@ -70,6 +72,8 @@ pub struct Scene {
     pub colliders: Vec<Collider>,
     /// What happens during the run, by time.
     pub schedule: Vec<Scheduled>,
+    /// Fields of its particles besides those that every scene of its kind has.
+    pub more_fields: Vec<Field>,
     pub neighbors: Neighbors,
     pub time: Time,
     /// The camera's points are in local coordinates too.

@@ -98,6 +98,7 @@ impl Scene {
             capacity: points.len() as u32,
             colliders: Vec::new(),
             schedule: Vec::new(),
+            more_fields: Vec::new(),
             // Nothing moves, so nothing has to be followed.
             neighbors: Neighbors {
                 quarantine_distance: Some(0.0),

@@ -506,7 +506,7 @@ mod tests {
             .iter()
             .flat_map(|key| key.choices.iter().map(|(word, _)| word.as_str()))
             .collect();
-        words.extend(COLUMNS.iter().chain(VECTORS).map(|column| column.name));
+        words.extend(COLUMNS.iter().chain(VECTORS.iter()).map(|column| column.name));
         words.extend(COLOR_MAPS.iter().map(|map| map.name));
         for (typed, ours) in WORDS {
             assert_eq!(*typed, plain(typed));

@@ -127,6 +127,7 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
             capacity,
             colliders,
             schedule,
+            more_fields: Vec::new(),
             neighbors,
             time,
             render,

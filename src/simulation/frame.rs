@@ -8,9 +8,10 @@ use crate::neighbors::Grid;
 use crate::neighbors::boxes::{VoxelBox, boxes};
 use crate::physics::Model;
 use crate::physics::layout::{Convergence, Occupancy, Overflow, Packed, Sums};
-use crate::plan::{Plan, has_buffer};
+use crate::plan::Plan;
 use crate::scene::Scene;
-use crate::scene::column::{Column, Source};
+use crate::scene::column::Column;
+use crate::scene::field::Kind;
 
 /// One moment of a run, on the host.
 #[derive(Debug, Clone, Default)]
@@ -184,13 +185,8 @@ pub(super) fn sources(columns: &[Column]) -> Vec<&'static str> {
         return names;
     }
     names.extend(["id", "position", "velocity"]);
-    for column in columns
-        .iter()
-        .filter(|c| c.source == Source::Measured || c.name == "material")
-    {
-        debug_assert!(has_buffer(column));
-        names.push(column.name);
-    }
+    let own = columns.iter().filter(|column| column.is_field());
+    names.extend(own.map(|column| column.name));
     names
 }
 
@@ -245,12 +241,12 @@ pub(super) fn columns(scene: &Scene, plan: &Plan, raw: &BTreeMap<&str, &[u8]>) -
                 let slice = |&s: &usize| plan.grid.slice_of(vector(&position, s));
                 Values::Unsigned(slot_of.iter().map(slice).collect())
             }
-            "contacts" | "material" => {
-                let values: Vec<u32> = bytemuck::pod_collect_to_vec(raw[column.name]);
+            field if scene.kind_of(field) == Kind::Unsigned => {
+                let values: Vec<u32> = bytemuck::pod_collect_to_vec(raw[field]);
                 Values::Unsigned(slot_of.iter().map(|&s| values[s]).collect())
             }
-            measured => {
-                let values: Vec<f32> = bytemuck::pod_collect_to_vec(raw[measured]);
+            field => {
+                let values: Vec<f32> = bytemuck::pod_collect_to_vec(raw[field]);
                 floats(&|s| f64::from(values[s]))
             }
         };

@@ -5,8 +5,9 @@ use glam::Vec3;
 use super::Simulation;
 use crate::error::Result;
 use crate::gpu::readback;
-use crate::physics::layout::{PACKED_BYTES, Packed, packed};
+use crate::physics::layout::Packed;
 use crate::scene::Particles;
+use crate::scene::field::{Newcomers, Travels};
 
 impl Simulation {
     /// Particles besides boundary particles.
@@ -39,41 +40,33 @@ impl Simulation {
         let ids: Vec<u32> = (first_id..first_id + more)
             .chain(first_wall..first_wall + walls.len() as u32)
             .collect();
-        self.buffers.write(&self.gpu, "next_id", first, &ids)?;
-        for (name, values) in [
-            ("next_position", [&free.position, &walls.position]),
-            ("next_velocity", [&free.velocity, &walls.velocity]),
-        ] {
-            let packed: Vec<Packed> = values.into_iter().flatten().map(|&v| packed(v)).collect();
-            self.buffers.write(&self.gpu, name, first, &packed)?;
-        }
-        if self.buffers.contains("next_excess") {
-            // What the others have by now stands in `fluid_state`.
-            let mut excess: Vec<f32> = self.fluid_state()?.iter().map(|state| state[0]).collect();
-            excess.extend(&free.excess);
-            excess.resize(first + all, 0.0);
-            self.buffers.write(&self.gpu, "next_excess", 0, &excess)?;
-        }
-        if self.buffers.contains("next_material") {
-            let mut material = free.material.clone();
-            material.resize(all, 0);
-            self.buffers.write(&self.gpu, "next_material", first, &material)?;
-        }
+        let newcomers = Newcomers {
+            free,
+            walls,
+            ids: &ids,
+        };
         let mut encoder = self.encoder("add particles");
-        let vector = PACKED_BYTES * u64::from(self.count);
-        for (name, next, bytes) in [
-            ("position", "next_position", vector),
-            ("velocity", "next_velocity", vector),
-            ("acceleration", "next_acceleration", vector),
-            ("id", "next_id", 4 * u64::from(self.count)),
-            ("material", "next_material", 4 * u64::from(self.count)),
-        ] {
-            if bytes > 0 && self.buffers.contains(name) {
-                let (from, to) = (
-                    self.buffers.get(name, "(host)")?,
-                    self.buffers.get(next, "(host)")?,
-                );
-                encoder.copy_buffer_to_buffer(from, 0, to, 0, bytes);
+        for field in self.scene.fields().filter(|field| field.travels != Travels::No) {
+            let (gpu, next) = (&self.gpu, field.before_search());
+            let each = field.kind.bytes(self.scene.dimensions) as usize;
+            let mut values = field.start.map_or_else(Vec::new, |start| start(&newcomers));
+            values.resize(each * all, 0);
+            self.buffers.write(gpu, &next, each * first, &values)?;
+            if first == 0 {
+                continue;
+            }
+            // The others have by now what their last step left.
+            match field.ends_in {
+                Some((other, place)) => {
+                    let bytes = readback::read::<u8>(gpu, self.buffers.get(other, "(host)")?, self.bytes_of(other))?;
+                    let numbers = self.number_of(other, place, &bytes);
+                    self.buffers.write(gpu, &next, 0, &numbers)?;
+                }
+                None => {
+                    let from = self.buffers.get(field.name, "(host)")?;
+                    let to = self.buffers.get(&next, "(host)")?;
+                    encoder.copy_buffer_to_buffer(from, 0, to, 0, (each * first) as u64);
+                }
             }
         }
         self.count += all as u32;
@@ -122,9 +115,15 @@ impl Simulation {
         Ok(self.by_id(ids, state.into_iter().map(|state| state[component]).collect()))
     }
 
+    /// Of the values that all particles have of a field.
+    fn bytes_of(&self, field: &str) -> usize {
+        let found = self.scene.fields().find(|known| known.name == field);
+        found.map_or(0, |found| found.kind.bytes(self.scene.dimensions) as usize) * self.count as usize
+    }
+
     /// ρ/ρ₀ − 1 and pressure (Pa) of a fluid's particles by slot; empty for grains.
-    pub(super) fn fluid_state(&self) -> Result<Vec<[f32; 2]>> {
-        if !self.buffers.contains("fluid_state") || self.count == 0 {
+    fn fluid_state(&self) -> Result<Vec<[f32; 2]>> {
+        if !self.scene.has_field("fluid_state") || self.count == 0 {
             return Ok(Vec::new());
         }
         readback::read(

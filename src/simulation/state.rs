@@ -12,20 +12,10 @@ use crate::error::{Error, Result};
 use crate::gpu::readback;
 use crate::neighbors::layout::ListState;
 use crate::neighbors::{Grid, lists};
-use crate::physics::layout::{Clock, Overflow, PACKED_BYTES, Pace, Packed, packed};
+use crate::physics::layout::{Clock, Overflow, Pace, Packed, packed};
+use crate::scene::field::Field;
 use crate::scene::model::Axis;
 use crate::scene::{Action, Dimensions, Scene};
-
-/// Buffers with one value per particle, and where the search takes them from.
-const PARTICLE_BUFFERS: [(&str, &str); 6] = [
-    ("position", "next_position"),
-    ("velocity", "next_velocity"),
-    ("acceleration", "next_acceleration"),
-    ("id", "next_id"),
-    // A fluid's densities are found behind the search; the next one carries `excess` along, see `restore`.
-    ("fluid_state", "fluid_state"),
-    ("material", "next_material"),
-];
 
 /// What the step after a frame depends on.
 #[derive(Debug, Clone, PartialEq)]
@@ -124,15 +114,13 @@ impl State {
 
 /// Bytes of a state with `particles` particles.
 pub fn state_bytes(scene: &Scene, particles: u32) -> u64 {
-    use crate::scene::model::Integrator;
-    let vectors = match scene.time.integrator {
-        Integrator::SymplecticEuler => 2,
-        Integrator::VelocityVerlet => 3,
-    };
-    let fluid = scene
-        .fluid()
-        .map_or(0, |fluid| if fluid.materials.len() > 1 { 12 } else { 8 });
-    u64::from(particles) * (vectors * PACKED_BYTES + 4 + fluid)
+    let each = saved(scene).map(|field| field.kind.bytes(scene.dimensions));
+    u64::from(particles) * each.sum::<u64>()
+}
+
+/// Fields that a state holds.
+fn saved(scene: &Scene) -> impl Iterator<Item = &Field> {
+    scene.fields().filter(|field| field.saved)
 }
 
 /// Vectors as `common/vector.wgsl` packs them.
@@ -150,12 +138,10 @@ impl Simulation {
     /// The state after the frame made last; waits for the device. Receive every frame under way first
     /// ([`Simulation::finish_frame`]), so that all of them are known to be sound.
     pub fn save_state(&self) -> Result<State> {
-        let vector = PACKED_BYTES as usize;
         let count = self.count as usize;
-        let particles = PARTICLE_BUFFERS.map(|(name, _)| match name {
-            "id" | "material" => (name, 4 * count),
-            "fluid_state" => (name, 8 * count),
-            _ => (name, vector * count),
+        let particles = saved(&self.scene).map(|field| {
+            let bytes = field.kind.bytes(self.scene.dimensions) as usize;
+            (field.name, bytes * count)
         });
         let counters = [
             ("clock", Clock::LAYOUT.size),
@@ -164,7 +150,7 @@ impl Simulation {
             ("grid", Grid::LAYOUT.size),
         ];
         let mut buffers = Vec::new();
-        for (name, bytes) in particles.into_iter().chain(counters) {
+        for (name, bytes) in particles.chain(counters) {
             if self.buffers.contains(name) {
                 let buffer = self.buffers.get(name, "(host)")?;
                 let read = readback::read::<u8>(&self.gpu, buffer, bytes);
@@ -229,13 +215,12 @@ impl Simulation {
             self.buffers.write(&self.gpu, "list_state", 0, &[lists])?;
         }
         // The search puts every particle where it stood, since it keeps the order inside a voxel.
-        for (name, next) in PARTICLE_BUFFERS {
-            self.put(next, state.buffer(name))?;
-        }
-        if let (true, Some(bytes)) = (self.buffers.contains("next_excess"), state.buffer("fluid_state")) {
-            let density: Vec<[f32; 2]> = bytemuck::pod_collect_to_vec(bytes);
-            let excess: Vec<f32> = density.iter().map(|state| state[0]).collect();
-            self.buffers.write(&self.gpu, "next_excess", 0, &excess)?;
+        for field in self.scene.fields() {
+            let stored = match field.ends_in {
+                Some((other, place)) => state.buffer(other).map(|bytes| self.number_of(other, place, bytes)),
+                None => state.buffer(field.name).map(<[u8]>::to_vec),
+            };
+            self.put(&field.before_search(), stored.as_deref())?;
         }
         if let (true, Some(why)) = (lists::can_be_left_out(&self.scene), &state.lists_left_out) {
             self.leave_lists_out(why.clone())?;
@@ -249,8 +234,8 @@ impl Simulation {
         // That the grid grew belongs to the frames before.
         self.growths = 0;
         // Accelerations belong to the velocities that the last step predicted, so the search cannot find them again.
-        for (name, _) in PARTICLE_BUFFERS {
-            self.put(name, state.buffer(name))?;
+        for field in saved(&self.scene) {
+            self.put(field.name, state.buffer(field.name))?;
         }
         self.restore_pace(state);
         self.write_pace()?;
@@ -299,6 +284,15 @@ impl Simulation {
     /// What colors particles from now on, by id, where the scene's colors are [`crate::scene::column::Source::Given`].
     pub fn give_column(&self, values: &[f32]) -> Result<()> {
         self.put("given_column", Some(bytemuck::cast_slice(values)))
+    }
+
+    /// One number of a field's values, of all particles.
+    pub(super) fn number_of(&self, field: &str, place: usize, bytes: &[u8]) -> Vec<u8> {
+        let found = self.scene.fields().find(|known| known.name == field);
+        let found = found.expect("fields end in fields of the same scene");
+        let width = found.kind.bytes(self.scene.dimensions) as usize;
+        let each = bytes.chunks_exact(width).map(|value| &value[4 * place..][..4]);
+        each.flatten().copied().collect()
     }
 
     /// Writes bytes to the beginning of a buffer, where both are there.

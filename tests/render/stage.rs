@@ -56,6 +56,7 @@ pub fn scene(dimensions: Dimensions, min: Vec3, max: Vec3, radius: f64, size: [u
         capacity: 1,
         colliders: Vec::new(),
         schedule: Vec::new(),
+        more_fields: Vec::new(),
         neighbors: Neighbors {
             addressing: Addressing::Uniform,
             storage: Storage::Pool,

@@ -3,7 +3,7 @@
 #import common/thread
 #import physics/dem/contacts
 
-#import physics/measured_columns
+#import fields/measured
 
 #import physics/measure
 #if statistics

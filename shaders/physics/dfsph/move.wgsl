@@ -8,6 +8,12 @@
 #import cells/images
 #import physics/dfsph/loop
 #import physics/dfsph/own
+#import fields/position
+// Before, how the particle goes, m/s; then its position, and in w the impulse that corrected it, as a pressure, Pa.
+#import fields/next_position/write
+#import fields/next_velocity/write
+#import fields/id
+#import fields/keep
 #if faces
 #import physics/fluid/coefficients
 #import physics/fluid/rim
@@ -15,13 +21,6 @@
 #if adaptive_step
 #import physics/extremes
 #end
-
-var<storage, read> position: array<Packed>;
-var<storage, read> id: array<u32>;
-// Before, how the particle goes, m/s; then its position, and in w the impulse that corrected it, as a pressure, Pa.
-var<storage, read_write> next_position: array<Packed>;
-var<storage, read_write> next_velocity: array<Packed>;
-var<storage, read_write> next_id: array<u32>;
 
 @compute @workgroup_size(GROUP_SIZE)
 fn move_fluid(thread: Thread) {
@@ -51,7 +50,7 @@ fn move_fluid(thread: Thread) {
     watch(id[i], x, &moved, &v);
     next_position[i] = pack_with(moved, own[i].impulse / time_step());
     next_velocity[i] = pack_with(v, pressure);
-    next_id[i] = id[i];
+    keep_fields(i);
 #if adaptive_step
     note_extremes(first(parameters.gravity), length(v), 0.0);
 #end

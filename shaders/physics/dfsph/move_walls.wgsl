@@ -6,12 +6,11 @@
 #import physics/fluid/walls
 #import physics/fluid/wall_motion
 #import cells/images
-
-var<storage, read> position: array<Packed>;
-var<storage, read> id: array<u32>;
-var<storage, read_write> next_position: array<Packed>;
-var<storage, read_write> next_velocity: array<Packed>;
-var<storage, read_write> next_id: array<u32>;
+#import fields/position
+#import fields/next_position/write
+#import fields/next_velocity/write
+#import fields/id
+#import fields/keep
 
 @compute @workgroup_size(GROUP_SIZE)
 fn move_walls(thread: Thread) {
@@ -22,5 +21,5 @@ fn move_walls(thread: Thread) {
     let v = wall_velocity(i);
     next_position[i] = pack(wrapped(unpack(position[i]) + time_step() * v.motion));
     next_velocity[i] = pack(v.motion + v.surface);
-    next_id[i] = id[i];
+    keep_fields(i);
 }

@@ -1,5 +1,8 @@
 // What a particle is made of.
 #import physics/fluid/coefficients
+#if several_materials
+#import fields/material
+#end
 
 struct Material {
     density: f32, // at rest, kg/m³
@@ -10,7 +13,6 @@ struct Material {
 
 #if several_materials
 var<storage, read> materials: array<Material>;
-var<storage, read> material: array<u32>;
 
 fn material_of(i: u32) -> Material {
     return materials[material[i]];

@@ -6,7 +6,7 @@
 #import physics/fluid/material
 #import physics/fluid/state
 
-#import physics/measured_columns
+#import fields/measured
 #if statistics
 #import physics/group_sums
 #import physics/measure

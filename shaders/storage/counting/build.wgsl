@@ -3,7 +3,7 @@
 // atomics had.
 #import common/thread
 #import common/parameters
-#import storage/place
+#import fields/place
 
 var<storage, read> voxel_start: array<u32>;
 var<storage, read> particle_voxel: array<u32>;

@@ -1,7 +1,7 @@
 // Takes particles to the same places in their other buffers.
 #import common/thread
 #import common/parameters
-#import storage/place
+#import fields/place
 
 @compute @workgroup_size(GROUP_SIZE)
 fn keep_particles(thread: Thread) {

@@ -3,7 +3,7 @@
 // two indices and hands on the other. Otherwise slots go by order of arrival (Green 2012).
 #import common/thread
 #import common/parameters
-#import storage/place
+#import fields/place
 #import <addressing>
 
 const NOBODY: u32 = 0xffffffffu;

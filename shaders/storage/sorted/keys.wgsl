@@ -2,11 +2,11 @@
 // (flag `separated`) stand behind all others, in a second row of the same voxels.
 #import common/vector
 #import common/parameters
-#import storage/next_position
+#import fields/next_position
 #import storage/sorted/entries
 #import <addressing>
 #if separated
-#import storage/next_id
+#import fields/next_id
 #end
 
 // Of the particle that a step left in place i.

@@ -3,7 +3,7 @@
 // The file that imports this one says what was sorted: `sorted_voxel(slot)` and `sorted_particle(slot)`.
 #import common/thread
 #import common/parameters
-#import storage/place
+#import fields/place
 
 // Of particles, until the prefix sum.
 var<storage, read_write> voxel_start: array<atomic<u32>>;

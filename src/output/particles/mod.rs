@@ -43,10 +43,10 @@ pub fn columns_named<'a>(names: impl IntoIterator<Item = &'a str>) -> Result<Vec
     for name in names {
         let found = VECTORS
             .iter()
-            .chain(COLUMNS)
+            .chain(COLUMNS.iter())
             .find(|column| column.name == name)
             .ok_or_else(|| {
-                let known = VECTORS.iter().chain(COLUMNS).map(|column| column.name);
+                let known = VECTORS.iter().chain(COLUMNS.iter()).map(|column| column.name);
                 Error::usage(format!("no column is named `{name}`"), suggest_word(name, known))
             })?;
         if !columns.contains(found) {

@@ -1,5 +1,0 @@
-var<storage, read> contacts: array<u32>;
-
-fn column(i: u32) -> f32 {
-    return f32(contacts[i]);
-}

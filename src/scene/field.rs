@@ -1,0 +1,275 @@
+//! Fields: what every particle has. Each is a row of [`FIELDS`]; from the rows come the device's buffers, the shaders that
+//! sort and keep particles, checkpoints, particle files and colors.
+
+use glam::Vec3;
+
+use super::column::{Column, Source};
+use super::fluid::Fluid;
+use super::model::{DensityFrom, FluidSolver, Integrator, Slip, ViscosityForm};
+use super::{Dimensions, Particles, Scene};
+
+/// A value of every particle.
+#[derive(Debug, Clone, Copy)]
+pub struct Field {
+    /// Of its buffer, in shaders, in files.
+    pub name: &'static str,
+    pub kind: Kind,
+    pub unit: &'static str,
+    pub about: &'static str,
+    /// Where files, colors and plots take it from; `None` where they do not know it.
+    pub column: Option<Source>,
+    pub travels: Travels,
+    /// Whether a checkpoint holds it.
+    pub saved: bool,
+    /// Whether a scene's particles have it. What is measured they have where somebody asks for it.
+    pub has: fn(&Scene) -> bool,
+    /// Bytes for particles that come; zeros where there is no such function.
+    pub start: Option<fn(&Newcomers) -> Vec<u8>>,
+    /// A field, and which of its numbers, that holds this one's value at the end of a step.
+    pub ends_in: Option<(&'static str, usize)>,
+}
+
+/// What a value is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    Float,
+    Unsigned,
+    /// Two numbers.
+    Pair,
+    /// As many numbers as there are dimensions, and one beside them.
+    Vector,
+    Matrix,
+}
+
+/// Whether a value goes where its particle goes when particles are sorted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Travels {
+    /// No: it is found anew behind each search.
+    No,
+    /// Yes: a step leaves the new value in `next_NAME`, from where the search takes it to its place.
+    Stepped,
+    /// Yes, and no step changes it.
+    Kept,
+}
+
+/// Particles that come.
+pub struct Newcomers<'a> {
+    pub free: &'a Particles,
+    /// Boundary particles, which follow the others.
+    pub walls: &'a Particles,
+    /// Of all of them.
+    pub ids: &'a [u32],
+}
+
+impl Kind {
+    /// Of one value on the device.
+    pub fn bytes(self, dimensions: Dimensions) -> u64 {
+        match (self, dimensions) {
+            (Self::Float | Self::Unsigned, _) => 4,
+            (Self::Pair, _) => 8,
+            (Self::Vector, _) | (Self::Matrix, Dimensions::Two) => 16,
+            (Self::Matrix, Dimensions::Three) => 48,
+        }
+    }
+}
+
+impl Field {
+    /// What files, colors and plots make of it.
+    pub const fn column(&self) -> Option<Column> {
+        match self.column {
+            Some(source) => Some(Column {
+                name: self.name,
+                unit: self.unit,
+                about: self.about,
+                source,
+            }),
+            None => None,
+        }
+    }
+
+    /// The buffer that a search takes it from, or the only one that it has.
+    pub fn before_search(&self) -> String {
+        match self.travels {
+            Travels::No => self.name.to_owned(),
+            Travels::Stepped | Travels::Kept => format!("next_{}", self.name),
+        }
+    }
+}
+
+/// What a row is where it says nothing else.
+const ROW: Field = Field {
+    name: "",
+    kind: Kind::Float,
+    unit: "",
+    about: "",
+    column: None,
+    travels: Travels::No,
+    saved: false,
+    has: |_| true,
+    start: None,
+    ends_in: None,
+};
+
+/// Every field there is.
+pub const FIELDS: &[Field] = &[
+    Field {
+        name: "position",
+        kind: Kind::Vector,
+        unit: "m",
+        about: "where the grain's center is, in the scene's coordinates",
+        column: Some(Source::State),
+        travels: Travels::Stepped,
+        saved: true,
+        start: Some(|new| vectors(&new.free.position, &new.walls.position)),
+        ..ROW
+    },
+    Field {
+        name: "velocity",
+        kind: Kind::Vector,
+        unit: "m/s",
+        about: "velocity of the grain's center",
+        column: Some(Source::State),
+        travels: Travels::Stepped,
+        saved: true,
+        start: Some(|new| vectors(&new.free.velocity, &new.walls.velocity)),
+        ..ROW
+    },
+    Field {
+        name: "id",
+        kind: Kind::Unsigned,
+        about: "the particle's number, stable during the run",
+        column: Some(Source::State),
+        travels: Travels::Kept,
+        saved: true,
+        start: Some(|new| bytemuck::cast_slice(new.ids).to_vec()),
+        ..ROW
+    },
+    Field {
+        name: "contacts",
+        kind: Kind::Unsigned,
+        about: "grains and walls that touch the grain; particles that a fluid particle's kernel reaches",
+        column: Some(Source::Measured),
+        ..ROW
+    },
+    Field {
+        name: "density",
+        unit: "kg/m³",
+        about: "mass of the grains in the block of voxels around, over the block's volume; of a fluid, its density",
+        column: Some(Source::Measured),
+        ..ROW
+    },
+    Field {
+        name: "pressure",
+        unit: "Pa",
+        about: "sum of the normal contact forces over the grain's surface; of a fluid, its pressure",
+        column: Some(Source::Measured),
+        ..ROW
+    },
+    Field {
+        name: "material",
+        kind: Kind::Unsigned,
+        about: "which of several fluids the particle belongs to, in the order of fluid.materials",
+        column: Some(Source::Field),
+        travels: Travels::Kept,
+        saved: true,
+        has: |scene| scene.fluid().is_some_and(|fluid| fluid.materials.len() > 1),
+        start: Some(|new| bytemuck::cast_slice(&new.free.material).to_vec()),
+        ..ROW
+    },
+    Field {
+        name: "acceleration",
+        kind: Kind::Vector,
+        unit: "m/s²",
+        about: "velocity Verlet needs the last accelerations",
+        travels: Travels::Stepped,
+        saved: true,
+        has: |scene| scene.time.integrator == Integrator::VelocityVerlet,
+        ..ROW
+    },
+    Field {
+        name: "fluid_state",
+        kind: Kind::Pair,
+        about: "ρ/ρ₀ − 1 and pressure, Pa",
+        saved: true,
+        has: |scene| scene.fluid().is_some(),
+        ..ROW
+    },
+    Field {
+        name: "excess",
+        about: "ρ/ρ₀ − 1, which the flow carries along",
+        travels: Travels::Stepped,
+        has: |scene| compressible(scene).any(|fluid| fluid.density_from == DensityFrom::Continuity),
+        start: Some(|new| bytemuck::cast_slice(&new.free.excess).to_vec()),
+        ends_in: Some(("fluid_state", 0)),
+        ..ROW
+    },
+    Field {
+        name: "viscous_velocity",
+        kind: Kind::Vector,
+        unit: "m/s",
+        about: "velocities that viscous forces see, walls that stick included",
+        has: |scene| {
+            let sticks = |fluid: &Fluid| fluid.is_viscous() && fluid.slip == Slip::NoSlip;
+            !scene.walls.is_empty() && compressible(scene).any(sticks)
+        },
+        ..ROW
+    },
+    Field {
+        name: "correction",
+        kind: Kind::Matrix,
+        about: "makes gradients exact for linear fields",
+        has: |scene| compressible(scene).any(|fluid| fluid.gradient_correction),
+        ..ROW
+    },
+    Field {
+        name: "stress",
+        kind: Kind::Matrix,
+        unit: "Pa",
+        about: "viscous stress",
+        has: |scene| {
+            let stressed = |fluid: &Fluid| fluid.is_viscous() && fluid.viscosity_form == ViscosityForm::Stress;
+            compressible(scene).any(stressed)
+        },
+        ..ROW
+    },
+    Field {
+        name: "surface_normal",
+        kind: Kind::Vector,
+        unit: "1/m",
+        about: "where the surface is, and which way it faces",
+        has: |scene| compressible(scene).any(Fluid::has_surface_tension),
+        ..ROW
+    },
+];
+
+/// The scene's fluid at the start and after each change, unless it is incompressible.
+fn compressible(scene: &Scene) -> impl Iterator<Item = &Fluid> {
+    let fluids = scene.matters().filter_map(|matter| matter.fluid());
+    fluids.filter(|fluid| fluid.solver != FluidSolver::Dfsph)
+}
+
+/// As the device holds vectors: a zero beside each.
+fn vectors(free: &[Vec3], walls: &[Vec3]) -> Vec<u8> {
+    let four: Vec<[f32; 4]> = free.iter().chain(walls).map(|v| v.extend(0.0).into()).collect();
+    bytemuck::cast_slice(&four).to_vec()
+}
+
+impl Scene {
+    /// The fields of its particles, those apart that are measured when somebody asks for them.
+    pub fn fields(&self) -> impl Iterator<Item = &Field> {
+        let own = FIELDS.iter().chain(&self.more_fields);
+        own.filter(|field| field.column != Some(Source::Measured) && (field.has)(self))
+    }
+
+    /// What the values of a field are, which may be one that is measured.
+    pub fn kind_of(&self, name: &str) -> Kind {
+        let mut all = FIELDS.iter().chain(&self.more_fields);
+        let found = all.find(|field| field.name == name);
+        found.expect("columns with a buffer are fields").kind
+    }
+
+    /// Whether its particles have such a field.
+    pub fn has_field(&self, name: &str) -> bool {
+        self.fields().any(|field| field.name == name)
+    }
+}
