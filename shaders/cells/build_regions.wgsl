@@ -1,10 +1,8 @@
-// Finds the regions: columns that hold particles, and where clusters of them begin.
+// Finds the regions: columns that hold particles, and where clusters of them begin, with REGION_GAP empty columns between two
+// of them.
 #import common/workgroup_scan
 #import cells/next_voxel
 #import cells/regions
-
-// Empty columns between two clusters that part them.
-const REGION_GAP: i32 = 4;
 
 // Not zero for a column that holds a particle; along u, then along w. Zero between searches.
 var<storage, read_write> column_mark: array<atomic<u32>>;
@@ -31,7 +29,7 @@ fn mark_columns(thread: Thread) {
 // Whether a cluster begins at a column that holds a particle.
 fn begins(first: i32, column: i32) -> bool {
     var found = false;
-    for (var gap = 1; gap <= REGION_GAP && column - gap >= first; gap++) {
+    for (var gap = 1; gap <= i32(REGION_GAP) && column - gap >= first; gap++) {
         found = found || atomicLoad(&column_mark[column - gap]) != 0u;
     }
     return !found;

@@ -3,6 +3,7 @@
 // (simulation/growth.rs).
 
 #import storage/sorted/entries
+#import host/dispatch
 
 struct SearchState {
     halted: u32, // not zero: there was too little room, and nothing runs
@@ -17,20 +18,6 @@ struct SearchState {
 var<storage, read_write> search_state: SearchState;
 // Arguments of indirect dispatches: x, y, z, and in w the groups that fit in one dimension (gpu::Items).
 var<storage, read_write> dispatch: array<vec4u>;
-
-const DISPATCH_PARTICLES: u32 = 0u;
-const DISPATCH_VOXELS: u32 = 1u;
-const DISPATCH_SCAN: u32 = 2u;
-const DISPATCH_SEARCHED: u32 = 4u;
-const DISPATCH_KEPT: u32 = 5u;
-const DISPATCH_MOVING: u32 = 6u;
-const DISPATCH_RETURNING: u32 = 7u;
-const DISPATCH_AWAY: u32 = 8u;
-const DISPATCH_RETURNED: u32 = 9u;
-const DISPATCH_FREE: u32 = 10u;
-const DISPATCH_SEARCHED_FREE: u32 = 11u;
-const DISPATCH_MOVING_FREE: u32 = 12u;
-const DISPATCHES: u32 = 13u;
 
 fn set_groups(which: u32, groups: u32) {
     let most = dispatch[which].w;

@@ -1,7 +1,7 @@
 // Regions (Harada 2007, Section 7): where particles stand in clusters with empty columns of voxels between them, each
-// cluster has slices of its own, so that nobody pays for the space between. Columns are looked at along u and along w.
+// cluster has slices of its own, so that nobody pays for the space between. Columns are looked at along u and along w. Along
+// each there are at most REGIONS_ALONG regions; what is more belongs to the last one.
 
-const REGIONS_ALONG: u32 = 4u; // what is more belongs to the last region
 const NO_REGION: i32 = -1;
 #if two_dimensional
 const REGIONS: u32 = REGIONS_ALONG;

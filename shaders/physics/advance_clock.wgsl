@@ -8,8 +8,6 @@
 #import storage/lists/decide
 #end
 
-const NO_STEP: u32 = 0xffffffffu; // nothing was caught yet
-
 // One thread, once a step.
 @compute @workgroup_size(1)
 fn advance_clock() {
@@ -18,7 +16,7 @@ fn advance_clock() {
         return;
     }
 #end
-    if atomicLoad(&guard.count) > 0u && guard.step == NO_STEP {
+    if atomicLoad(&guard.count) > 0u && guard.step == GUARD_NO_STEP {
         guard.step = clock.step;
     }
     clock.step_in_segment += 1u;

@@ -13,20 +13,13 @@ struct PaceLimits {
 
 var<uniform> pace_limits: PaceLimits;
 
-// What limits a step, in the order of physics::pace::names.
-const LIMIT_SOUND: u32 = 0u;
-const LIMIT_STIFFNESS: u32 = 1u; // the fluid is pressed so much that sound is faster in it than expected
-const LIMIT_MOTION: u32 = 2u; // something is faster than expected
-const LIMIT_ACCELERATION: u32 = 3u;
-const LIMIT_CONSTANT: u32 = 4u;
-const LIMIT_FRAME: u32 = 5u; // the end of a frame or of what goes on in it
+// What limits a step (physics::pace::LIMITS): STIFFNESS where the fluid is pressed so much that sound is faster in it than
+// expected, MOTION where something is faster than expected, FRAME where the end of a frame or of what goes on in it does.
 
 // A step may be longer than the one before by this factor, and shorter by any.
 const GROWTH: f32 = 1.1;
 // A step that is shorter than wanted by this factor or more is so for the segment's end.
 const CUT_SHORT: f32 = 0.9;
-// By how much a step may be longer than wanted where that saves one.
-const ROUNDING: f32 = 1e-4;
 
 // One thread, when a step has been made.
 fn count_step() {

@@ -8,12 +8,9 @@ struct Guard {
     velocity: vec4f, // m/s
     id: u32,
     step: u32, // advance_clock.wgsl sets it
-    kind: u32, // 1: not finite, 2: lost
+    kind: u32, // GUARD_NOT_FINITE or GUARD_LOST
     count: atomic<u32>, // catches in all
 }
-
-const GUARD_NOT_FINITE: u32 = 1u;
-const GUARD_LOST: u32 = 2u;
 
 var<storage, read_write> guard: Guard;
 

@@ -1,7 +1,5 @@
 // How far a run has come, and how long steps are, where the device chooses them (physics::pace).
-
-// Ticks of a segment: time is counted in whole ones, so that steps land on its end whatever their lengths are.
-const SEGMENT_TICKS: u32 = 0x80000000u;
+#import host/step_limits
 
 struct Pace {
     left: u32, // ticks until the segment ends
@@ -16,7 +14,7 @@ struct Pace {
     stalled: u32, // not zero: steps would be so short that the run would never end
     shortest: f32, // step since the last frame, s
     longest: f32,
-    made: array<u32, 6>, // steps since the last frame, by what limited them
+    made: array<u32, LIMITS>, // steps since the last frame, by what limited them
 }
 
 #if advances_clock

@@ -1,8 +1,6 @@
 // The voxels that have memory as a square picture: one texel a voxel in the order in which they lie there, row by row.
 #import <storage>
 
-const NO_VOXEL: u32 = 0xffffffffu;
-
 // Smallest side whose square holds `total` texels.
 fn side_of(total: u32) -> u32 {
     var side = u32(sqrt(f32(total)));

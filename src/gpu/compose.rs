@@ -3,7 +3,8 @@
 //! Directives, each alone on its line:
 //! - `#import common/vector` takes in `shaders/common/vector.wgsl` once; `#import <addressing>` takes the file that
 //!   the plan chose for that role, so that physics never names a grid;
-//! - `#if flag`, `#if !flag`, `#else`, `#end` keep lines only where the plan set the flag;
+//! - `#if flag`, `#if !flag`, `#else`, `#end` keep lines only where the plan set the flag; a plan decides about each flag
+//!   that its shaders depend on, and about none that no shader knows;
 //! - `#flag name` sets a flag for this composition, for what the file imports below;
 //! - constants that the plan set stand in front as `const NAME = value;`; a plan may also write whole modules, such as
 //!   those of the particles' fields, which are imported as files are.
@@ -14,9 +15,11 @@
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::LazyLock;
 
 use include_dir::{Dir, include_dir};
 
+use super::parts::dispatch_module;
 use crate::error::{Error, Result};
 
 static SHADERS: Dir = include_dir!("$CARGO_MANIFEST_DIR/shaders");
@@ -31,6 +34,8 @@ pub const SCAN_ITEMS: u32 = 8;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Variant {
     pub flags: BTreeSet<String>,
+    /// Flags that the plan decided not to set.
+    unset: BTreeSet<String>,
     /// WGSL constants of type u32.
     pub constants: BTreeMap<&'static str, u32>,
     /// Role → file without its ending: `addressing` → `cells/sliced`.
@@ -48,19 +53,32 @@ impl Default for Variant {
         ];
         Self {
             flags: BTreeSet::new(),
+            unset: BTreeSet::new(),
             constants: sizes.into(),
             roles: BTreeMap::new(),
-            modules: BTreeMap::new(),
+            modules: [("host/dispatch".to_owned(), dispatch_module())].into(),
         }
     }
 }
 
 impl Variant {
+    /// Decides about a flag; what is once set stays so.
     pub fn flag(&mut self, name: &str, on: bool) -> &mut Self {
-        if on {
-            self.flags.insert(name.to_owned());
-        }
+        let decided = if on { &mut self.flags } else { &mut self.unset };
+        decided.insert(name.to_owned());
         self
+    }
+
+    /// Decides that these flags are not set.
+    pub fn without(&mut self, names: &[&str]) -> &mut Self {
+        self.unset.extend(names.iter().map(|&name| name.to_owned()));
+        self
+    }
+
+    /// Whether a flag is set; `None` where nobody decided.
+    fn decided(&self, name: &str) -> Option<bool> {
+        let is_set = self.flags.contains(name);
+        (is_set || self.unset.contains(name) || own_flags().contains(name)).then_some(is_set)
     }
 
     pub fn constant(&mut self, name: &'static str, value: u32) -> &mut Self {
@@ -79,6 +97,8 @@ impl Variant {
 pub struct Composed {
     pub path: String,
     pub text: String,
+    /// Flags that it depends on, and whether they were set.
+    pub flags: BTreeSet<(String, bool)>,
     places: Vec<(String, usize)>,
 }
 
@@ -120,15 +140,44 @@ fn source(file: &str) -> Option<Cow<'static, str>> {
     }
 }
 
+/// Second words of all lines of shaders that begin with a directive.
+fn words_of(directive: &str) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for path in files() {
+        let text = source(&format!("{path}.wgsl")).unwrap_or_default();
+        let lines = text.lines().filter_map(|line| line.trim().strip_prefix(directive));
+        found.extend(lines.map(|word| word.trim().trim_start_matches('!').to_owned()));
+    }
+    found
+}
+
+/// Flags that files set for what they import.
+fn own_flags() -> &'static BTreeSet<String> {
+    static FLAGS: LazyLock<BTreeSet<String>> = LazyLock::new(|| words_of("#flag "));
+    &FLAGS
+}
+
+/// Flags that some shader depends on.
+pub fn known_flags() -> &'static BTreeSet<String> {
+    static FLAGS: LazyLock<BTreeSet<String>> = LazyLock::new(|| words_of("#if "));
+    &FLAGS
+}
+
 /// Composes `shaders/{path}.wgsl`.
 pub fn compose(path: &str, variant: &Variant) -> Result<Composed> {
     let mut composed = Composed {
         path: format!("{path}.wgsl"),
         text: String::new(),
+        flags: BTreeSet::new(),
         places: Vec::new(),
     };
     for (name, value) in &variant.constants {
         composed.push(&format!("const {name}: u32 = {value}u;"), "(plan)", 0);
+    }
+    if let Some(unknown) = variant.flags.union(&variant.unset).find(|flag| !known_flags().contains(*flag)) {
+        return Err(Error::Shader {
+            message: format!("no shader knows the flag `{unknown}` of the plan"),
+        });
     }
     let mut seen = BTreeSet::new();
     composed.import(path, &mut variant.clone(), &mut seen, "(plan)")?;
@@ -172,10 +221,21 @@ impl Composed {
                 )));
             }
             match (first, second) {
-                (Some("#if"), Some(flag)) => open.push(match flag.strip_prefix('!') {
-                    Some(flag) => !variant.flags.contains(flag),
-                    None => variant.flags.contains(flag),
-                }),
+                (Some("#if"), Some(flag)) => {
+                    let (flag, wanted) = match flag.strip_prefix('!') {
+                        Some(flag) => (flag, false),
+                        None => (flag, true),
+                    };
+                    if keep {
+                        let is_set = variant
+                            .decided(flag)
+                            .ok_or_else(|| fail(format!("{place}: the plan does not decide about the flag `{flag}`")))?;
+                        self.flags.insert((flag.to_owned(), is_set));
+                        open.push(is_set == wanted);
+                    } else {
+                        open.push(false);
+                    }
+                }
                 (Some("#flag"), Some(flag)) if keep => {
                     variant.flag(flag, true);
                 }

@@ -165,8 +165,35 @@ pub enum Items {
     Fixed(u32),
 }
 
-/// Entries of the buffer `dispatch`.
-pub const DISPATCHES: u64 = 13;
+/// What the entries of the buffer `dispatch` are for, in order, each with its name in shaders. Those without boundary
+/// particles stand behind the others.
+pub const DISPATCHES: &[(Items, &str)] = &[
+    (Items::Particles, "DISPATCH_PARTICLES"),
+    (Items::Voxels, "DISPATCH_VOXELS"),
+    (Items::VoxelBlocks, "DISPATCH_SCAN"),
+    (Items::Once, "DISPATCH_ONCE"),
+    (Items::SearchedParticles, "DISPATCH_SEARCHED"),
+    (Items::KeptParticles, "DISPATCH_KEPT"),
+    (Items::MovingParticles, "DISPATCH_MOVING"),
+    (Items::ReturningParticles, "DISPATCH_RETURNING"),
+    (Items::AwayParticles, "DISPATCH_AWAY"),
+    (Items::ReturnedParticles, "DISPATCH_RETURNED"),
+    (Items::FreeParticles, "DISPATCH_FREE"),
+    (Items::SearchedFreeParticles, "DISPATCH_SEARCHED_FREE"),
+    (Items::MovingFreeParticles, "DISPATCH_MOVING_FREE"),
+];
+
+/// Entries of `loop_dispatch` that each loop has: for the first and for the second pass of an iteration.
+const LOOP_ENTRIES: u64 = 2;
+
+/// The shader module `host/dispatch`: the same numbers by name.
+pub(super) fn dispatch_module() -> String {
+    let entries = DISPATCHES.iter().enumerate();
+    let named = entries.map(|(entry, (_, name))| format!("const {name}: u32 = {entry}u;\n"));
+    let count = DISPATCHES.len();
+    let numbers: String = named.collect();
+    format!("{numbers}const DISPATCHES: u32 = {count}u;\nconst LOOP_ENTRIES: u32 = {LOOP_ENTRIES}u;\n")
+}
 
 impl Items {
     /// Which buffer, and which of its entries, has the number of workgroups; `None` for a fixed number.
@@ -175,25 +202,19 @@ impl Items {
     /// under way has a buffer of its own.
     pub fn dispatch_entry(self) -> Option<(&'static str, u64)> {
         match self {
-            Self::Particles => Some(("dispatch", 0)),
-            Self::Voxels => Some(("dispatch", 1)),
-            Self::VoxelBlocks => Some(("dispatch", 2)),
-            Self::Once => Some(("dispatch", 3)),
-            Self::SearchedParticles => Some(("dispatch", 4)),
-            Self::KeptParticles => Some(("dispatch", 5)),
-            Self::MovingParticles => Some(("dispatch", 6)),
-            Self::ReturningParticles => Some(("dispatch", 7)),
-            Self::AwayParticles => Some(("dispatch", 8)),
-            Self::ReturnedParticles => Some(("dispatch", 9)),
-            Self::FreeParticles => Some(("dispatch", 10)),
-            Self::SearchedFreeParticles => Some(("dispatch", 11)),
-            Self::MovingFreeParticles => Some(("dispatch", 12)),
             Self::SearchedOnce => Some(("search_dispatch", 0)),
-            Self::Loop(number) => Some(("loop_dispatch", 2 * u64::from(number))),
-            Self::LoopSecond(number) => Some(("loop_dispatch", 2 * u64::from(number) + 1)),
+            Self::Loop(number) => Some(("loop_dispatch", LOOP_ENTRIES * u64::from(number))),
+            Self::LoopSecond(number) => Some(("loop_dispatch", LOOP_ENTRIES * u64::from(number) + 1)),
             Self::LoopOnce(number) => Some(("check_dispatch", number.into())),
             Self::Fixed(_) => None,
+            _ => Some(("dispatch", self.entry() as u64)),
         }
+    }
+
+    /// The entry of `dispatch` that has their number.
+    pub fn entry(self) -> usize {
+        let found = DISPATCHES.iter().position(|(items, _)| *items == self);
+        found.expect("only what has a buffer of its own is in no entry of `dispatch`")
     }
 }
 

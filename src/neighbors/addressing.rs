@@ -1,6 +1,6 @@
 //! Which voxel a coordinate falls in.
 
-use super::Search;
+use super::{REGIONS_ALONG, Search};
 use super::grid::{Grid, Voxel};
 use super::layout::SearchState;
 use super::room::{self, Room};
@@ -146,13 +146,10 @@ pub fn search_state(search: &mut Search) {
     .renewed());
 }
 
-/// Regions along one direction: `REGIONS_ALONG` of `cells/regions.wgsl`.
-const REGIONS_ALONG: u64 = 4;
-
 /// Slabs of slices that a scene has.
 pub fn regions(scene: &Scene) -> u64 {
     if scene.neighbors.regions {
-        REGIONS_ALONG.pow(scene.dimensions.count() as u32 - 1)
+        u64::from(REGIONS_ALONG).pow(scene.dimensions.count() as u32 - 1)
     } else {
         1
     }

@@ -11,6 +11,9 @@ use crate::scene::Scene;
 /// Shader of the pass that counts a step; with lists it also decides whether to search.
 const CLOCK: &str = "physics/advance_clock";
 
+/// Flags that lists may set.
+pub(super) const FLAGS: &[&str] = &["lists", "lists_every_step", "periodic", "walls_apart"];
+
 /// Particles whose rows of a list are interleaved: what the narrowest processors read side by side; wider ones read whole
 /// sectors of memory all the same.
 const LIST_LANES: u32 = 8;
@@ -30,6 +33,11 @@ fn walls_apart(scene: &Scene) -> bool {
     every_step(scene) && !scene.walls.is_empty()
 }
 
+/// Numbers that a list begins with: how many neighbors it has, boundary particles for themselves where they stand apart.
+fn head(scene: &Scene) -> u32 {
+    1 + u32::from(walls_apart(scene))
+}
+
 /// Neighbors that a particle usually has within the radius and the skin.
 pub fn usual_length(scene: &Scene) -> u32 {
     scene.usual_neighbors(1.0 + scene.neighbors.skin).ceil() as u32
@@ -47,7 +55,7 @@ pub fn buffers(scene: &Scene, length: u32) -> Vec<BufferPlan> {
     // Rows are interleaved by so many.
     let rows = listed.next_multiple_of(LIST_LANES.into());
     let length = u64::from(length);
-    let head = 1 + u64::from(walls_apart(scene));
+    let head = u64::from(head(scene));
     let mut buffers = vec![
         BufferPlan::storage(
             "neighbor_list",
@@ -166,6 +174,7 @@ pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
         .flag("lists_every_step", every_step(scene))
         .flag("walls_apart", walls_apart(scene))
         .constant("LIST_LANES", LIST_LANES)
+        .constant("LIST_HEAD", head(scene))
         .flag("periodic", scene.domain.period() != glam::Vec3::ZERO)
         .role("candidates", "storage/lists/query");
     search_state(search);

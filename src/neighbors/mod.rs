@@ -28,6 +28,21 @@ use addressing::RoomRule;
 /// Shader file that gives physics its candidates straight from the voxels.
 pub const FROM_VOXELS: &str = "storage/from_voxels";
 
+/// What a picture of the voxels shows where there is none.
+pub const NO_VOXEL: u32 = u32::MAX;
+/// Empty columns between two clusters that part them, and regions along one direction (Harada 2007, Section 7).
+const REGION_GAP: u32 = 4;
+const REGIONS_ALONG: u32 = 4;
+/// Flags that an addressing or a storage may set.
+const FLAGS: &[&str] = &[
+    "bitmap",
+    "bounded",
+    "fixed_room",
+    "packed_pairs",
+    "regions",
+    "separated",
+];
+
 /// Slices are cut across another axis when that needs so much less room.
 const WORTH_TURNING: f64 = 0.9;
 
@@ -154,11 +169,16 @@ pub fn plan(scene: &Scene, grid: Grid, variant: &mut Variant) -> Search {
         .constant("REACH", grid::voxel_reach(scene))
         .flag("deterministic", scene.neighbors.deterministic);
     let mut search = Search::new(scene, grid, scene.capacity);
+    variant
+        .constant("NO_VOXEL", NO_VOXEL)
+        .constant("REGIONS_ALONG", REGIONS_ALONG)
+        .constant("REGION_GAP", REGION_GAP)
+        .without(lists::FLAGS);
     if lists::wanted(scene) {
         lists::plan(&mut search, scene, variant);
     }
-    for flag in &search.flags {
-        variant.flag(flag, true);
+    for flag in FLAGS {
+        variant.flag(flag, search.flags.contains(flag));
     }
     for &(name, value) in &search.constants {
         variant.constant(name, value);
@@ -175,7 +195,7 @@ impl Search {
                 BufferPlan::constant("grid", &grid, "place and size of the voxels"),
                 BufferPlan::indirect(
                     "dispatch",
-                    DISPATCHES,
+                    DISPATCHES.len() as u64,
                     16,
                     "workgroups of the passes, which the device decides",
                 ),

@@ -77,11 +77,6 @@ fn fit(count: u64) -> u32 {
     u32::try_from(count).unwrap_or(u32::MAX)
 }
 
-/// Empty columns between two clusters that part them, and regions along one direction: as in
-/// `cells/build_regions.wgsl` and `cells/regions.wgsl`.
-const REGION_GAP: i32 = 4;
-const REGIONS_ALONG: usize = 4;
-
 /// The region of each column that holds a particle.
 fn regions(mut columns: Vec<i32>) -> BTreeMap<i32, usize> {
     columns.sort_unstable();
@@ -90,8 +85,8 @@ fn regions(mut columns: Vec<i32>) -> BTreeMap<i32, usize> {
     let mut last = None;
     let mut numbered = BTreeMap::new();
     for column in columns {
-        if last.is_some_and(|last| column - last > REGION_GAP) {
-            region = (region + 1).min(REGIONS_ALONG - 1);
+        if last.is_some_and(|last| column - last > REGION_GAP as i32) {
+            region = (region + 1).min(REGIONS_ALONG as usize - 1);
         }
         last = Some(column);
         numbered.insert(column, region);

@@ -49,14 +49,14 @@ impl Obstacles {
         let offset = packed(offset_at(&collider.path, 0.0));
         match &collider.shape {
             ColliderShape::Plane { point, normal } => Collider {
-                kind: 0,
+                kind: Collider::PLANE,
                 a: packed(*point),
                 b: packed(*normal),
                 offset,
                 ..Default::default()
             },
             ColliderShape::Box { min, max } => Collider {
-                kind: 1,
+                kind: Collider::BOX,
                 a: packed(*min),
                 b: packed(*max),
                 offset,
@@ -67,7 +67,7 @@ impl Obstacles {
                 radius,
                 hollow,
             } => Collider {
-                kind: 2,
+                kind: Collider::SPHERE,
                 radius: if *hollow { -radius } else { *radius },
                 a: packed(*center),
                 offset,
@@ -88,7 +88,7 @@ impl Obstacles {
                 }
                 let field = SignedDistance::new(mesh, cell, 2.0 * grain + 2.0 * cell);
                 let described = Collider {
-                    kind: 3,
+                    kind: Collider::MESH,
                     field_offset: self.field.len() as u32,
                     cell: field.cell as f32,
                     a: packed(field.min.as_vec3()),

@@ -3,7 +3,8 @@
 use glam::Vec3;
 
 use super::collider::{Obstacles, offset_at, velocity_between};
-use super::layout::{ClampWalls, Contact, ContactWalls, Measure};
+use super::fluid::FLAG;
+use super::layout::{ClampWalls, Collider, Contact, ContactWalls, Measure};
 use super::model::{Fault, Model, OwnFigures, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::neighbors::Grid;
@@ -61,6 +62,11 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         scene.matters().any(|matter| positive(&grains(matter).contact))
     };
     variant
+        // What only fluids have, in shaders that they share.
+        .without(&[FLAG, "boundary_particles"])
+        .constant("COLLIDER_PLANE", Collider::PLANE)
+        .constant("COLLIDER_BOX", Collider::BOX)
+        .constant("COLLIDER_MESH", Collider::MESH)
         .flag("contact_walls", contact_walls)
         .flag("clamp_walls", clamp_walls)
         .flag("colliders", !obstacles.colliders.is_empty())

@@ -20,7 +20,7 @@ use crate::scene::{self, Matter, Scene};
 
 /// Sums that the errors of all particles are added to.
 const ERROR_SUMS: u32 = 256;
-/// Loops, as `control.wgsl` numbers them.
+/// Numbers of the loops.
 const DENSITY: u32 = 0;
 const DIVERGENCE: u32 = 1;
 /// Relaxation of Jacobi's iteration. With the momentum below, dam breaks in 3D blow up at 0.4.
@@ -80,6 +80,10 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         .flag("artificial_viscosity", damped)
         .flag("drag", viscous || damped)
         .constant("ERROR_SUMS", ERROR_SUMS)
+        .constant("DENSITY_LOOP", DENSITY)
+        .constant("DIVERGENCE_LOOP", DIVERGENCE)
+        // What only compressible fluids have, in shaders that they share.
+        .without(&["clamped_pressure", "continuity", "several_materials"])
         .flag("slips", walls && fluid.slip == Slip::FreeSlip)
         .flag("rim", rim)
         .flag("faces", faces)

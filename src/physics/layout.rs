@@ -60,7 +60,7 @@ shared_struct! {
         pub shortest: f32,
         pub longest: f32,
         /// Steps since the last frame, by what limited them.
-        pub made: [u32; 6],
+        pub made: [u32; super::pace::LIMITS.len()],
     }
 }
 
@@ -104,10 +104,17 @@ shared_struct! {
         pub velocity: [f32; 4],
         pub id: u32,
         pub step: u32,
-        /// 1: not finite, 2: lost.
+        /// [`Guard::NOT_FINITE`] or [`Guard::LOST`].
         pub kind: u32,
         pub count: u32,
     }
+}
+
+impl Guard {
+    pub const NOT_FINITE: u32 = 1;
+    pub const LOST: u32 = 2;
+    /// Stands in `step` as long as nothing was caught.
+    pub const NO_STEP: u32 = u32::MAX;
 }
 
 shared_struct! {
@@ -149,7 +156,7 @@ shared_struct! {
 
 shared_struct! {
     pub struct Collider {
-        /// 0: plane, 1: box, 2: sphere, 3: mesh.
+        /// [`Collider::PLANE`] and so on.
         pub kind: u32,
         pub field_offset: u32,
         pub radius: f32,
@@ -159,6 +166,13 @@ shared_struct! {
         pub offset: [f32; 4],
         pub velocity: [f32; 4],
     }
+}
+
+impl Collider {
+    pub const PLANE: u32 = 0;
+    pub const BOX: u32 = 1;
+    pub const SPHERE: u32 = 2;
+    pub const MESH: u32 = 3;
 }
 
 shared_struct! {

@@ -6,9 +6,9 @@ use crate::scene::{Scene, StepLimits};
 
 /// Flag of every variant with such steps.
 pub const FLAG: &str = "adaptive_step";
-/// Ticks of a segment (`shaders/physics/pace.wgsl`).
+/// Ticks of a segment: time is counted in whole ones, so that steps land on its end whatever their lengths are.
 const SEGMENT_TICKS: u32 = 1 << 31;
-/// By how much a step may be longer than wanted where that saves one (`shaders/physics/choose_step.wgsl`).
+/// By how much a step may be longer than wanted where that saves one.
 const ROUNDING: f32 = 1e-4;
 /// A run whose steps become shorter than this share of the expected one would never end.
 const SHORTEST_SHARE: f64 = 1e-4;
@@ -18,6 +18,7 @@ const ENDLESS: f64 = 1e15;
 /// The buffers of an adaptive step.
 pub fn plan(scene: &Scene, variant: &mut Variant) -> Vec<BufferPlan> {
     variant.flag(FLAG, scene.time.adaptive.is_some());
+    variant.modules.insert("host/step_limits".into(), module());
     let Some(limits) = &scene.time.adaptive else {
         return Vec::new();
     };
@@ -48,16 +49,33 @@ fn device_limits(limits: &StepLimits) -> PaceLimits {
     }
 }
 
-/// What a step can be limited by, in the order in which the device counts.
-pub fn names(limits: &StepLimits) -> [&'static str; 6] {
-    [
-        "speed of sound",
-        "stiffness",
-        "motion",
-        "acceleration",
-        limits.constant.1,
-        "frame end",
-    ]
+/// What a step can be limited by, in the order in which the device counts: names in shaders and in messages. The limit
+/// that never changes has its name from the scene.
+pub const LIMITS: [(&str, Option<&str>); 6] = [
+    ("LIMIT_SOUND", Some("speed of sound")),
+    ("LIMIT_STIFFNESS", Some("stiffness")),
+    ("LIMIT_MOTION", Some("motion")),
+    ("LIMIT_ACCELERATION", Some("acceleration")),
+    ("LIMIT_CONSTANT", None),
+    ("LIMIT_FRAME", Some("frame end")),
+];
+
+/// Names of [`LIMITS`] in messages.
+pub fn names(limits: &StepLimits) -> [&'static str; LIMITS.len()] {
+    LIMITS.map(|(_, name)| name.unwrap_or(limits.constant.1))
+}
+
+/// The shader module `host/step_limits`.
+fn module() -> String {
+    let numbered = LIMITS.iter().enumerate();
+    let limits: String = numbered
+        .map(|(number, (name, _))| format!("const {name}: u32 = {number}u;\n"))
+        .collect();
+    let count = LIMITS.len();
+    format!(
+        "{limits}const LIMITS: u32 = {count}u;\nconst SEGMENT_TICKS: u32 = {SEGMENT_TICKS}u;\n\
+         const ROUNDING: f32 = {ROUNDING};\n"
+    )
 }
 
 impl Pace {

@@ -199,7 +199,10 @@ impl Plan {
         let mut variant = Variant::default();
         variant
             .flag("two_dimensional", scene.dimensions == Dimensions::Two)
-            .constant("DIMENSIONS", scene.dimensions.count() as u32);
+            .constant("DIMENSIONS", scene.dimensions.count() as u32)
+            .constant("GUARD_NOT_FINITE", Guard::NOT_FINITE)
+            .constant("GUARD_LOST", Guard::LOST)
+            .constant("GUARD_NO_STEP", Guard::NO_STEP);
 
         let mut columns = wanted.columns.clone();
         let colored = scene.color.column;
@@ -390,32 +393,26 @@ impl Plan {
     /// particles.
     ///
     /// Rows of x, y, z, and the groups that fit in one dimension.
-    pub fn dispatch(&self, particles: u32, free: u32, limits: &Limits) -> [[u32; 4]; DISPATCHES as usize] {
+    pub fn dispatch(&self, particles: u32, free: u32, limits: &Limits) -> Vec<[u32; 4]> {
         let voxels = self.grid.capacity;
         let free = if self.variant.flags.contains("separated") {
             free
         } else {
             particles
         };
-        let groups = [
-            particles.div_ceil(GROUP_SIZE),
-            voxels.div_ceil(GROUP_SIZE),
-            self.scan_blocks(voxels),
-            1,
-            particles.div_ceil(GROUP_SIZE),
-            0,
-            0,
-            0,
-            0,
-            0,
-            free.div_ceil(GROUP_SIZE),
-            free.div_ceil(GROUP_SIZE),
-            0,
-        ];
-        groups.map(|groups| {
-            let (x, y) = fold(groups, limits.groups);
+        let groups = |items| match items {
+            Items::Particles | Items::SearchedParticles => particles.div_ceil(GROUP_SIZE),
+            Items::FreeParticles | Items::SearchedFreeParticles => free.div_ceil(GROUP_SIZE),
+            Items::Voxels => voxels.div_ceil(GROUP_SIZE),
+            Items::VoxelBlocks => self.scan_blocks(voxels),
+            Items::Once => 1,
+            _ => 0,
+        };
+        let entry = |(items, _): &(Items, &str)| {
+            let (x, y) = fold(groups(*items), limits.groups);
             [x, y, 1, limits.groups]
-        })
+        };
+        DISPATCHES.iter().map(entry).collect()
     }
 
     /// Workgroups of a prefix sum over the entries of `voxel_start`.
@@ -476,7 +473,7 @@ fn state_buffers(scene: &Scene) -> Vec<BufferPlan> {
     let guard = Guard {
         lower,
         upper,
-        step: u32::MAX,
+        step: Guard::NO_STEP,
         ..Default::default()
     };
     vec![

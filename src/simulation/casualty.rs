@@ -17,7 +17,7 @@ impl Simulation {
         let fault = &self.plan.model.fault;
         let radii = f64::from(speed) * place.step / self.scene.radius();
         let (what, likely_cause) = match guard.kind {
-            1 => (
+            Guard::NOT_FINITE => (
                 "a particle's position or velocity is not a finite number",
                 format!(
                     "the time step of {:.3e} s is too long for {}",

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use crate::neighbors::Grid;
+use crate::neighbors::{Grid, NO_VOXEL};
 use crate::neighbors::boxes::{VoxelBox, boxes};
 use crate::physics::Model;
 use crate::physics::layout::{Convergence, Occupancy, Overflow, Packed, Sums};
@@ -143,7 +143,6 @@ impl Statistics {
 impl Voxels {
     /// Of the bytes of `voxel_map` and of the addressing's record.
     pub(super) fn new(scene: &Scene, grid: &Grid, map: &[u8], record: &[u8]) -> Self {
-        const NO_VOXEL: u32 = u32::MAX;
         let counts: Vec<u32> = bytemuck::pod_collect_to_vec(map);
         Self {
             boxes: boxes(scene, grid, record),

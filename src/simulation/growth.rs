@@ -128,8 +128,6 @@ impl Simulation {
         let grid = neighbors::grid_for(&scene, &self.read_next_positions()?);
         let plan = Plan::without_lists(&scene, &self.gpu.limits, &self.plan.wanted, grid, why)?;
         self.scene = scene;
-        // The passes are the same by name, and made of other shaders.
-        self.kernels.clear();
         for buffer in &self.plan.buffers {
             if !plan.buffers.iter().any(|kept| kept.name == buffer.name) {
                 self.buffers.remove(&buffer.name);

@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 
 use crate::error::Result;
+use crate::gpu::compose::compose;
 use crate::gpu::pass::INDEX_STRIDE;
 use crate::gpu::{Buffers, Gpu, Groups, Items, Kernel, Pass, PassPlan, Repeat, Shader};
 use crate::plan::{Phase, Plan};
 
-/// Compiled entry points by shader and name; they outlive the buffers that passes bind.
+/// Compiled entry points by the text of their shader and their name; they outlive the buffers that passes bind. One shader
+/// file may be composed differently from phase to phase.
 pub type Kernels = BTreeMap<(String, String), Kernel>;
 
 /// A pass and how many threads it runs.
@@ -60,9 +62,10 @@ impl Passes {
         let mut made = |phase, back: bool| -> Result<Vec<Step>> {
             let variant = plan.variant_of(phase);
             let step = |planned: &PassPlan| {
-                let key = (planned.shader.clone(), planned.entry.clone());
+                let composed = compose(&planned.shader, &variant)?;
+                let key = (composed.text.clone(), planned.entry.clone());
                 if !kernels.contains_key(&key) {
-                    let shader = Shader::load(&planned.shader, &variant)?;
+                    let shader = Shader::from_composed(&composed)?;
                     kernels.insert(key.clone(), Kernel::new(gpu, &shader, &planned.entry)?);
                 }
                 let kernel = &kernels[&key];

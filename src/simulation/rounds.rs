@@ -6,6 +6,7 @@ use super::Simulation;
 use super::passes::Step;
 use super::segments::Segment;
 use crate::error::Result;
+use crate::gpu::Items;
 use crate::neighbors::layout::ListState;
 use crate::neighbors::lists;
 
@@ -17,13 +18,8 @@ const ROOM: f64 = 1.25;
 /// Adaptive steps that are submitted before the host looks how long they are by then.
 const MOST_AHEAD: u64 = 1024;
 
-/// Entries of `dispatch` ([`crate::gpu::Items`]).
-const EVERYONE: usize = 0;
-const MOVING: usize = 6;
-const FREE: usize = 10;
-const MOVING_FREE: usize = 12;
-/// Field of [`crate::neighbors::layout::ListState`].
-const LAST_STEP: usize = 4;
+/// Where a field of [`ListState`] stands, in numbers of four bytes.
+const LAST_STEP: usize = std::mem::offset_of!(ListState, last_step) / 4;
 
 impl Simulation {
     /// Runs a segment to its end; where it is timed, the last two steps pass by pass. It stops where lists are left out
@@ -126,7 +122,12 @@ impl Simulation {
         let (gpu, buffers) = (&self.gpu, &self.buffers);
         buffers.write(gpu, "list_state", LAST_STEP, &[self.submitted as u32])?;
         let dispatch = self.plan.dispatch(self.count, self.free_particles(), &gpu.limits);
-        buffers.write(gpu, "dispatch", MOVING, &[dispatch[EVERYONE]])?;
-        buffers.write(gpu, "dispatch", MOVING_FREE, &[dispatch[FREE]])
+        for (moving, all) in [
+            (Items::MovingParticles, Items::Particles),
+            (Items::MovingFreeParticles, Items::FreeParticles),
+        ] {
+            buffers.write(gpu, "dispatch", moving.entry(), &[dispatch[all.entry()]])?;
+        }
+        Ok(())
     }
 }

@@ -11,7 +11,7 @@
 #end
 
 struct Collider {
-    kind: u32, // 0: plane, 1: box, 2: sphere, 3: mesh
+    kind: u32, // COLLIDER_PLANE, _BOX, _SPHERE or _MESH
     field_offset: u32, // mesh: its first value in distance_field
     radius: f32, // sphere, m; negative for one that is solid outside
     cell: f32, // mesh: distance of the field's nodes, m
@@ -20,11 +20,6 @@ struct Collider {
     offset: vec4f, // where it is now, at the first step of the segment, m
     velocity: vec4f, // m/s
 }
-
-const PLANE: u32 = 0u;
-const BOX: u32 = 1u;
-const SPHERE: u32 = 2u;
-const MESH: u32 = 3u;
 
 var<storage, read> colliders: array<Collider>;
 #if mesh_colliders
@@ -108,14 +103,14 @@ fn nearest_on_mesh(x: Vector, collider: Collider) -> Nearest {
 
 fn nearest_on(collider: Collider, x: Vector) -> Nearest {
     switch collider.kind {
-        case PLANE: {
+        case COLLIDER_PLANE: {
             return Nearest(dot(x - first(collider.a), first(collider.b)), first(collider.b));
         }
-        case BOX: {
+        case COLLIDER_BOX: {
             return nearest_on_box(x, first(collider.a), first(collider.b));
         }
 #if mesh_colliders
-        case MESH: {
+        case COLLIDER_MESH: {
             return nearest_on_mesh(x, collider);
         }
 #end

@@ -1,5 +1,6 @@
 // Begins, checks and ends the loops.
 #import physics/dfsph/loop
+#import host/dispatch
 
 // Arguments of indirect dispatches, for each loop those of its first and of its second pass; in w the groups that fit in one
 // dimension.
@@ -11,11 +12,11 @@ var<storage, read_write> error_sum: array<u32>; // in units of error_unit(); zer
 var<storage, read_write> convergence: Convergence;
 
 fn first_pass(which: u32) -> u32 {
-    return 2u * which;
+    return LOOP_ENTRIES * which;
 }
 
 fn second_pass(which: u32) -> u32 {
-    return 2u * which + 1u;
+    return LOOP_ENTRIES * which + 1u;
 }
 
 fn begin_loop(which: u32) {
@@ -78,9 +79,6 @@ fn mean_error() -> f32 {
     }
     return sum * error_unit() / f32(max(parameters.free_count, 1u));
 }
-
-// Of `dispatch` (gpu::Items): whether steps go on.
-const DISPATCH_MOVING: u32 = 6u;
 
 @compute @workgroup_size(1)
 fn begin_density_loop() {

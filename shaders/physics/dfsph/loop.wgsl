@@ -40,9 +40,6 @@ fn error_unit() -> f32 {
     return f32(groups_per_sum * GROUP_SIZE) * (LARGEST_ERROR / 4e9);
 }
 
-const DENSITY_LOOP: u32 = 0u;
-const DIVERGENCE_LOOP: u32 = 1u;
-
 // Particles that the loops run over.
 fn loop_count() -> u32 {
 #if separated

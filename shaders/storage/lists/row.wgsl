@@ -1,15 +1,9 @@
 // A row per particle: how many neighbors it has, then they, with room for grid.list_capacity. Where a solver wants boundary
 // particles apart, the row begins with two numbers: of the others, which come next, and of boundary particles, which stand at
-// the row's end.
+// the row's end. These are LIST_HEAD numbers.
 //
 // Rows of LIST_LANES particles are interleaved, so that threads side by side read numbers side by side.
 #import cells/grid
-
-#if walls_apart
-const LIST_HEAD: u32 = 2u;
-#else
-const LIST_HEAD: u32 = 1u;
-#end
 
 // Where the row of particle i begins; from one of its numbers to the next are LIST_LANES.
 fn list_row(i: u32) -> u32 {
