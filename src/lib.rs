@@ -17,15 +17,17 @@
 //! - `src/error.rs`: the one error type; every message says what to do next.
 //! - `src/scene/`: what a user writes (`src/scene/model.rs`), checked against its own schema (`src/scene/check.rs`),
 //!   explained key by key (`src/scene/keys.rs`), made into numbers (`src/scene/validate.rs`); shapes, meshes and files
-//!   become particles. Points alone are a scene without physics (`src/scene/points.rs`).
+//!   become particles. Points alone are a scene without physics (`src/scene/points.rs`). What a particle has is a row of
+//!   `src/scene/field.rs`, what events may change a row of `src/scene/changes.rs`.
 //! - `src/gpu/`: the only user of wgpu. Shaders are composed (`src/gpu/compose.rs`) and reflected
 //!   (`src/gpu/reflect.rs`); a pass binds buffers by the name that they have everywhere (`src/gpu/pass.rs`).
 //! - `src/neighbors/`: neighbor search = `src/neighbors/addressing.rs` × `src/neighbors/storage.rs`.
 //!   Neighbor lists serve several steps (`src/neighbors/lists.rs`). `src/neighbors/occupancy/` counts on the host what
 //!   each grid needs for any positions.
-//! - `src/physics/`: grains (`src/physics/dem.rs`) and obstacles, fluids (`src/physics/fluid.rs`) and their smoothing
-//!   kernels (`src/physics/kernels.rs`); parameters and an ordered list of passes. Steps whose length the device chooses
-//!   (`src/physics/pace.rs`).
+//! - `src/physics/`: solvers, each a row of the table in `src/physics/model.rs`: grains (`src/physics/dem.rs`) and obstacles,
+//!   weakly compressible fluids (`src/physics/fluid.rs`) and incompressible ones (`src/physics/dfsph.rs`) with their
+//!   smoothing kernels (`src/physics/kernels.rs`). Buffers and shader modules that fields are made into
+//!   (`src/physics/fields.rs`). Steps whose length the device chooses (`src/physics/pace.rs`).
 //! - `src/render/`: pictures from the simulation's own buffers: splats, colliders, slices, the pool's heatmap, legends.
 //! - `src/plan/`: scene + limits → every buffer and pass, with the reason for each. Needs no GPU.
 //! - `src/simulation/`: executes a plan: steps, frames, what comes back. Grids that need more room get it
@@ -64,7 +66,10 @@
 //!   `src/neighbors/addressing.rs` or `src/neighbors/storage.rs`;
 //! - a smoothing kernel: one shader file in `shaders/physics/fluid/kernels/`, one word in `src/scene/model/fluid.rs` and
 //!   its rows in `src/physics/kernels.rs`, which the tests hold to integrals and derivatives;
-//! - a column: one row in `src/scene/column.rs` and one file in `shaders/render/columns/`;
+//! - what particles have: one row in `src/scene/field.rs`, which is sorted, saved, exported and drawn as it says; a column
+//!   that follows from others: one row in `src/scene/column.rs` and one file in `shaders/render/columns/`;
+//! - a solver: one file in `src/physics/`, its shaders, and one row in `src/physics/model.rs`;
+//! - a parameter that events change: one key in `src/scene/model.rs` and one row in `src/scene/changes.rs`;
 //! - a format of particle files: one row in `src/output/particles/formats.rs`; a kind of video: one in
 //!   `src/output/video/mod.rs`;
 //! - a color map: one row in `src/scene/color_maps.rs`;

@@ -1,15 +1,33 @@
 //! Every picture shader, composed and validated without a GPU; structs against the host's, offset by offset.
 
+use std::collections::BTreeMap;
+
 use sliceflow::gpu::{Shader, Variant, compose};
+use sliceflow::neighbors::NO_VOXEL;
+use sliceflow::physics::fields;
 use sliceflow::render::{Picture, PoolPanel};
-use sliceflow::scene::column::COLUMNS;
+use sliceflow::scene::column::{COLUMNS, Column};
+use sliceflow::scene::field::FIELDS;
+
+/// What the role `<column>` is for a column.
+fn file_of(column: &Column, modules: &BTreeMap<String, String>) -> String {
+    let field = format!("fields/{}/color", column.name);
+    match modules.contains_key(&field) {
+        true => field,
+        false => format!("render/columns/{}", column.name),
+    }
+}
 
 fn variants() -> Vec<Variant> {
     let mut all = Vec::new();
     for (two, solid, floor) in [(true, false, false), (false, false, false), (false, true, true)] {
-        for column in COLUMNS {
+        for column in COLUMNS.iter() {
             let mut variant = Variant::default();
+            variant.modules.extend(fields::modules(FIELDS));
             variant
+                .without(&["bounded", "regions", "separated"])
+                .constant("NO_VOXEL", NO_VOXEL)
+                .constant("REGIONS_ALONG", 4)
                 .flag("two_dimensional", two)
                 .flag("shadows", solid)
                 .flag("occlusion", solid)
@@ -17,7 +35,7 @@ fn variants() -> Vec<Variant> {
                 .flag("has_floor", floor)
                 .constant("SHADOW_TEXELS", 1024)
                 .constant("OCCLUSION_BLOCK", 8)
-                .role("column", format!("render/columns/{}", column.name))
+                .role("column", file_of(column, &fields::modules(FIELDS)))
                 .constant("DIMENSIONS", if two { 2 } else { 3 })
                 .constant("SLOTS", 4)
                 .constant("REACH", 1)
@@ -43,11 +61,14 @@ fn every_picture_shader_is_valid() {
 }
 
 #[test]
-fn every_column_has_a_file() {
-    let files = compose::files();
-    for column in COLUMNS {
-        let path = format!("render/columns/{}", column.name);
-        assert!(files.contains(&path), "there is no shaders/{path}.wgsl");
+fn every_column_has_a_file_or_is_a_field() {
+    let (files, modules) = (compose::files(), fields::modules(FIELDS));
+    for column in COLUMNS.iter() {
+        let path = file_of(column, &modules);
+        assert!(
+            files.contains(&path) || modules.contains_key(&path),
+            "there is no shaders/{path}.wgsl"
+        );
     }
 }
 

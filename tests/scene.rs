@@ -499,8 +499,10 @@ fn events_keep_what_they_do_not_change() {
     let parameters: Vec<(f64, Vec3, Contact)> = scene
         .schedule
         .iter()
-        .filter_map(|scheduled| match scheduled.action {
-            Action::SetParameters { gravity, contact } => Some((scheduled.time, gravity, contact?)),
+        .filter_map(|scheduled| match &scheduled.action {
+            Action::SetParameters { gravity, matter } => {
+                Some((scheduled.time, *gravity, matter.grains()?.contact))
+            }
             Action::Add(_) => None,
         })
         .collect();
@@ -514,6 +516,46 @@ fn events_keep_what_they_do_not_change() {
     assert_eq!(stiff.spring, 4000.0);
     // The restitution of 0.5 holds on.
     assert_near(stiff.damping, 2.0 * scene.grains().unwrap().contact.damping);
+}
+
+#[test]
+fn events_change_what_a_solver_has_and_nothing_else() {
+    let told = |matter: &str, value: Value, set: Value| {
+        let mut given = block();
+        given.as_object_mut().unwrap().remove("grains");
+        given[matter] = value;
+        given["events"] = json!([{ "at": 0.5, "set": set }]);
+        message(&given, &[])
+    };
+    let grains = block()["grains"].clone();
+    let told_of_grains = told("grains", grains, json!({ "viscosity": 1, "sound_speed": 20 }));
+    for part in [
+        "events[0].set.viscosity",
+        "events[0].set.sound_speed",
+        "has no effect on grains",
+        "gravity, spring",
+    ] {
+        assert!(told_of_grains.contains(part), "{part}: {told_of_grains}");
+    }
+    let water = json!({ "spacing": 0.1, "solver": "dfsph" });
+    let told_of_dfsph = told("fluid", water, json!({ "sound_speed": 20, "spring": 3 }));
+    for part in [
+        "events[0].set.sound_speed",
+        "events[0].set.spring",
+        "gravity, viscosity and artificial_viscosity",
+    ] {
+        assert!(told_of_dfsph.contains(part), "{part}: {told_of_dfsph}");
+    }
+    let water = json!({ "spacing": 0.1 });
+    let told_of_water = told("fluid", water, json!({ "wall_friction": 0.1, "material": "oil" }));
+    for part in [
+        "wall_friction",
+        "sticks to",
+        "names a material of which nothing changes",
+        "no material is called",
+    ] {
+        assert!(told_of_water.contains(part), "{part}: {told_of_water}");
+    }
 }
 
 #[test]

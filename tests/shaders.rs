@@ -5,14 +5,14 @@ mod common;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
-use sliceflow::gpu::Shader;
 use sliceflow::gpu::buffers::Usage;
-use sliceflow::gpu::compose::compose;
+use sliceflow::gpu::compose::{self, compose, known_flags};
 use sliceflow::gpu::device::Limits;
 use sliceflow::gpu::reflect::StructLayout;
+use sliceflow::gpu::{Shader, Variant};
 use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
 use sliceflow::physics::layout::SHARED;
-use sliceflow::plan::{PassRow, Plan, Wanted};
+use sliceflow::plan::{PassRow, Phase, Plan, Wanted};
 use sliceflow::scene::column::{COLUMNS, Source};
 
 fn wanted() -> Wanted {
@@ -151,6 +151,8 @@ struct Composed {
     plans: Vec<Plan>,
     /// By composed text and entry point.
     shaders: BTreeMap<(String, String), Result<Reflected, String>>,
+    /// Flags that they depend on, and whether they were set.
+    flags: BTreeSet<(String, bool)>,
 }
 
 /// What the tests look at of a pass.
@@ -162,12 +164,14 @@ struct Reflected {
 static COMPOSED: LazyLock<Composed> = LazyLock::new(|| {
     let plans = plans();
     let mut shaders = BTreeMap::new();
+    let mut flags = BTreeSet::new();
     for (plan, row) in plans
         .iter()
         .flat_map(|plan| plan.passes.iter().map(move |row| (plan, row)))
     {
         let composed = compose(&row.pass.shader, &plan.variant_of(row.phase));
         let composed = composed.unwrap_or_else(|error| panic!("{error}"));
+        flags.extend(composed.flags.iter().cloned());
         shaders
             .entry((composed.text.clone(), row.pass.entry.clone()))
             .or_insert_with(|| {
@@ -182,7 +186,11 @@ static COMPOSED: LazyLock<Composed> = LazyLock::new(|| {
                 reflect().map_err(|error| error.to_string())
             });
     }
-    Composed { plans, shaders }
+    Composed {
+        plans,
+        shaders,
+        flags,
+    }
 });
 
 impl Composed {
@@ -228,6 +236,96 @@ fn every_planned_buffer_is_used_by_a_pass() {
     }
 }
 
+/// Plans of what is off in the others.
+fn bare_plans() -> Vec<Plan> {
+    let bare = Wanted::default();
+    let nothing = ["colliders=[]"];
+    let loose = ["neighbors.deterministic=false", "neighbors.storage=counting"];
+    let mut scenes = vec![
+        common::scene(2, &nothing),
+        common::scene(3, &loose),
+        common::fluid(2, &nothing),
+        common::fluid(2, &["colliders=[]", "domain.walls=periodic", "gravity=[0,0]"]),
+        common::fluid(3, &["fluid.density_diffusion=0", "fluid.slip=free_slip"]),
+    ];
+    scenes.push(common::fluid(
+        2,
+        &["fluid.solver=dfsph", "colliders=[]", "domain.walls=open"],
+    ));
+    let plan = |scene| Plan::new(&scene, &Limits::PROMISED, &bare).expect("a plan");
+    scenes.into_iter().map(plan).collect()
+}
+
+#[test]
+fn every_flag_is_composed_both_on_and_off() {
+    let mut seen = COMPOSED.flags.clone();
+    let mut see = |path: &str, variant: &Variant| match compose(path, variant) {
+        Ok(composed) => seen.extend(composed.flags),
+        Err(error) => panic!("{error}"),
+    };
+    for plan in bare_plans() {
+        for row in &plan.passes {
+            see(&row.pass.shader, &plan.variant_of(row.phase));
+        }
+    }
+    for dimensions in [2, 3] {
+        let plan = Plan::new(&common::scene(dimensions, &[]), &Limits::PROMISED, &wanted()).expect("a plan");
+        for solid in [false, true] {
+            let mut variant = plan.variant.clone();
+            for flag in ["shadows", "occlusion", "round_shadows", "has_floor"] {
+                variant.flag(flag, solid);
+            }
+            variant
+                .constant("SHADOW_TEXELS", 1024)
+                .constant("OCCLUSION_BLOCK", 8)
+                .role("column", "fields/id/color");
+            for path in compose::files().iter().filter(|path| path.starts_with("render/")) {
+                see(path, &variant);
+            }
+        }
+    }
+    let both = |flag: &&String| {
+        [true, false]
+            .iter()
+            .all(|&on| seen.contains(&((*flag).clone(), on)))
+    };
+    let missing: Vec<&String> = known_flags().iter().filter(|flag| !both(flag)).collect();
+    assert!(missing.is_empty(), "never both on and off: {missing:?}");
+}
+
+#[test]
+fn flags_that_nobody_knows_or_decides_about_are_errors() {
+    let mut variant = Variant::default();
+    variant.flag("two_dimensional", true);
+    compose("common/vector", &variant).expect("composed");
+    variant.flag("three_dimensional", false);
+    let unknown = compose("common/vector", &variant)
+        .expect_err("no shader knows it")
+        .to_string();
+    assert!(unknown.contains("`three_dimensional`"), "{unknown}");
+    let undecided = compose("common/vector", &Variant::default())
+        .expect_err("nobody decided")
+        .to_string();
+    assert!(
+        undecided.contains("shaders/common/vector.wgsl:") && undecided.contains("`two_dimensional`"),
+        "{undecided}"
+    );
+}
+
+#[test]
+fn one_file_may_be_composed_differently_from_phase_to_phase() {
+    let plan = Plan::new(&common::scene(2, &[]), &Limits::PROMISED, &wanted()).expect("a plan");
+    let text = |phase| {
+        compose("physics/dem/contacts", &plan.variant_of(phase))
+            .expect("composed")
+            .text
+    };
+    assert!(
+        text(Phase::Step) != text(Phase::Observe),
+        "kernels would be mixed up by their file alone"
+    );
+}
+
 #[test]
 fn shared_structs_agree_offset_by_offset() {
     let mut seen = BTreeSet::new();
@@ -256,6 +354,7 @@ fn an_error_names_the_authors_file_and_line() {
     let mut variant = sliceflow::gpu::Variant::default();
     variant
         .flag("two_dimensional", true)
+        .without(&["bounded", "periodic", "regions", "separated"])
         .role("addressing", "cells/nowhere")
         .constant("SLOTS", 4)
         .constant("REACH", 1);

@@ -145,7 +145,9 @@ fn words_of(directive: &str) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     for path in files() {
         let text = source(&format!("{path}.wgsl")).unwrap_or_default();
-        let lines = text.lines().filter_map(|line| line.trim().strip_prefix(directive));
+        let lines = text
+            .lines()
+            .filter_map(|line| line.trim().strip_prefix(directive));
         found.extend(lines.map(|word| word.trim().trim_start_matches('!').to_owned()));
     }
     found
@@ -174,7 +176,11 @@ pub fn compose(path: &str, variant: &Variant) -> Result<Composed> {
     for (name, value) in &variant.constants {
         composed.push(&format!("const {name}: u32 = {value}u;"), "(plan)", 0);
     }
-    if let Some(unknown) = variant.flags.union(&variant.unset).find(|flag| !known_flags().contains(*flag)) {
+    if let Some(unknown) = variant
+        .flags
+        .union(&variant.unset)
+        .find(|flag| !known_flags().contains(*flag))
+    {
         return Err(Error::Shader {
             message: format!("no shader knows the flag `{unknown}` of the plan"),
         });
@@ -227,9 +233,11 @@ impl Composed {
                         None => (flag, true),
                     };
                     if keep {
-                        let is_set = variant
-                            .decided(flag)
-                            .ok_or_else(|| fail(format!("{place}: the plan does not decide about the flag `{flag}`")))?;
+                        let is_set = variant.decided(flag).ok_or_else(|| {
+                            fail(format!(
+                                "{place}: the plan does not decide about the flag `{flag}`"
+                            ))
+                        })?;
                         self.flags.insert((flag.to_owned(), is_set));
                         open.push(is_set == wanted);
                     } else {

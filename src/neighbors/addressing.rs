@@ -1,9 +1,9 @@
 //! Which voxel a coordinate falls in.
 
-use super::{REGIONS_ALONG, Search};
 use super::grid::{Grid, Voxel};
 use super::layout::SearchState;
 use super::room::{self, Room};
+use super::{REGIONS_ALONG, Search};
 use crate::gpu::{BufferPlan, Items, PassPlan};
 use crate::scene::model::Addressing;
 use crate::scene::{Dimensions, Scene};
@@ -136,14 +136,16 @@ pub fn search_state(search: &mut Search) {
     if search.buffers.iter().any(|buffer| buffer.name == "search_state") {
         return;
     }
-    search.buffers.push(BufferPlan::storage(
-        "search_state",
-        1,
-        SearchState::LAYOUT.size as u64,
-        "what the search needed, and whether it had room",
-    )
-    .holding(&[SearchState::BEFORE])
-    .renewed());
+    search.buffers.push(
+        BufferPlan::storage(
+            "search_state",
+            1,
+            SearchState::LAYOUT.size as u64,
+            "what the search needed, and whether it had room",
+        )
+        .holding(&[SearchState::BEFORE])
+        .renewed(),
+    );
 }
 
 /// Slabs of slices that a scene has.

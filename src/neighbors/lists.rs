@@ -179,14 +179,16 @@ pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
         .role("candidates", "storage/lists/query");
     search_state(search);
     search.buffers.extend(buffers(scene, search.grid.list_capacity));
-    search.buffers.push(BufferPlan::indirect(
-        "search_dispatch",
-        1,
-        16,
-        "a workgroup for the passes that lay out the grid, when there is a search",
-    )
-    .holding(&[[1u32; 4]])
-    .renewed());
+    search.buffers.push(
+        BufferPlan::indirect(
+            "search_dispatch",
+            1,
+            16,
+            "a workgroup for the passes that lay out the grid, when there is a search",
+        )
+        .holding(&[[1u32; 4]])
+        .renewed(),
+    );
     search.passes = when(&search.passes, Items::SearchedParticles);
     search.passes.extend([
         PassPlan::new(

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::grid::{Grid, Voxel};
+use super::{REGION_GAP, REGIONS_ALONG};
 
 /// Nothing is made smaller than this, so that a few particles more do not make it grow at once.
 const LEAST: f64 = 1024.0;

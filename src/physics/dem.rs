@@ -87,7 +87,11 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     ));
     if contact_walls {
         let why = "sides of the domain that push back";
-        buffers.push(BufferPlan::constant("contact_walls", &walls_that_push(scene), why));
+        buffers.push(BufferPlan::constant(
+            "contact_walls",
+            &walls_that_push(scene),
+            why,
+        ));
     }
     if clamp_walls {
         let why = "sides of the domain that clamp (Green 2012)";

@@ -1,7 +1,7 @@
 //! A scene's fields on the device: their buffers, and the shader modules that are made of their rows.
 //!
 //! - `fields/NAME` and `fields/next_NAME` declare a buffer for reading, `fields/NAME/write` and so on for writing too;
-//! - `fields/place` takes a particle from where a step left it to its slot: `place(from, to)`;
+//! - `fields/place` takes a particle from where a step left it to its slot: `place(i, slot)`;
 //! - `fields/keep` leaves for the search what no step changes: `keep_fields(i)`;
 //! - `fields/measured` declares what a measure writes;
 //! - `fields/NAME/color` is the role `<column>` of pictures: `column(i)`.
@@ -54,24 +54,29 @@ pub fn modules(fields: &[Field]) -> BTreeMap<String, String> {
         declare(&mut modules, name, field);
         if field.travels != Travels::No {
             declare(&mut modules, &format!("next_{name}"), field);
-            push(&mut place, format!("#import fields/next_{name}\n#import fields/{name}/write"));
-            push(&mut placed, format!("    {name}[to] = next_{name}[from];"));
+            push(
+                &mut place,
+                format!("#import fields/next_{name}\n#import fields/{name}/write"),
+            );
+            push(&mut placed, format!("    {name}[slot] = next_{name}[i];"));
         }
         if field.travels == Travels::Kept {
-            push(&mut keep, format!("#import fields/{name}\n#import fields/next_{name}/write"));
+            push(
+                &mut keep,
+                format!("#import fields/{name}\n#import fields/next_{name}/write"),
+            );
             push(&mut kept, format!("    next_{name}[i] = {name}[i];"));
         }
         if field.column == Some(Source::Measured) {
             push(&mut measured, format!("#import fields/{name}/write"));
         }
         if let (Some(_), Kind::Float | Kind::Unsigned) = (field.column, field.kind) {
-            let text = format!(
-                "#import fields/{name}\nfn column(i: u32) -> f32 {{\n    return f32({name}[i]);\n}}"
-            );
+            let text =
+                format!("#import fields/{name}\nfn column(i: u32) -> f32 {{\n    return f32({name}[i]);\n}}");
             modules.insert(format!("fields/{name}/color"), text);
         }
     }
-    push(&mut place, format!("fn place(from: u32, to: u32) {{\n{placed}}}"));
+    push(&mut place, format!("fn place(i: u32, slot: u32) {{\n{placed}}}"));
     push(&mut keep, format!("fn keep_fields(i: u32) {{\n{kept}}}"));
     modules.insert("fields/place".into(), place);
     modules.insert("fields/keep".into(), keep);
@@ -88,7 +93,10 @@ fn declare(modules: &mut BTreeMap<String, String>, buffer: &str, field: &Field) 
         Kind::Vector => ("#import common/vector\n", "Packed"),
         Kind::Matrix => ("#import physics/fluid/matrix\n", "Matrix"),
     };
-    for (path, access) in [(format!("fields/{buffer}"), "read"), (format!("fields/{buffer}/write"), "read_write")] {
+    for (path, access) in [
+        (format!("fields/{buffer}"), "read"),
+        (format!("fields/{buffer}/write"), "read_write"),
+    ] {
         let text = format!("{needs}var<storage, {access}> {buffer}: array<{element}>;");
         modules.insert(path, text);
     }

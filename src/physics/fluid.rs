@@ -292,7 +292,11 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         solver.after_search.push(super::kick());
     }
     if statistics {
-        buffers.push(BufferPlan::constant("measure", &measure(scene), "where energies are zero"));
+        buffers.push(BufferPlan::constant(
+            "measure",
+            &measure(scene),
+            "where energies are zero",
+        ));
     }
     if request.measures() {
         let why = "energies, densities and measured columns, once a frame";

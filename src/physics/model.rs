@@ -56,7 +56,11 @@ pub struct Request<'a> {
 impl Request<'_> {
     /// Whether anything is measured once a frame.
     pub fn measures(&self) -> bool {
-        self.statistics || self.columns.iter().any(|column| column.source == Source::Measured)
+        self.statistics
+            || self
+                .columns
+                .iter()
+                .any(|column| column.source == Source::Measured)
     }
 }
 

@@ -432,6 +432,12 @@ impl Plan {
         variant
     }
 
+    /// Whether steps go by twos: the first leaves particles in the `next_` buffers, and the second takes them back.
+    pub fn goes_by_twos(&self) -> bool {
+        let is_set = |flag| self.variant.flags.contains(flag);
+        is_set("lists") && !is_set("lists_every_step")
+    }
+
     pub fn in_phase(&self, phase: Phase) -> impl Iterator<Item = &PassPlan> {
         self.passes
             .iter()

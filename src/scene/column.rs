@@ -89,7 +89,8 @@ pub static COLUMNS: LazyLock<Vec<Column>> = LazyLock::new(|| {
 });
 
 /// Vectors, which particle files keep whole: one row per particle.
-pub static VECTORS: LazyLock<Vec<Column>> = LazyLock::new(|| columns_of(|kind| kind == Kind::Vector).collect());
+pub static VECTORS: LazyLock<Vec<Column>> =
+    LazyLock::new(|| columns_of(|kind| kind == Kind::Vector).collect());
 
 fn columns_of(is_wanted: fn(Kind) -> bool) -> impl Iterator<Item = Column> {
     let fields = FIELDS.iter().filter(move |field| is_wanted(field.kind));

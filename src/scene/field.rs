@@ -227,7 +227,8 @@ pub const FIELDS: &[Field] = &[
         unit: "Pa",
         about: "viscous stress",
         has: |scene| {
-            let stressed = |fluid: &Fluid| fluid.is_viscous() && fluid.viscosity_form == ViscosityForm::Stress;
+            let stressed =
+                |fluid: &Fluid| fluid.is_viscous() && fluid.viscosity_form == ViscosityForm::Stress;
             compressible(scene).any(stressed)
         },
         ..ROW

@@ -96,12 +96,14 @@ pub struct Speeds<'a> {
     pub gravity: DVec3,
     /// Fastest wall, obstacle or emitter, m/s.
     pub walls: f64,
+    /// The greatest surface tension that events set, N/m.
+    pub later_tension: f64,
 }
 
 impl Fluid {
     pub fn new(given: &model::Fluid, frame: &Frame, speeds: &Speeds, report: &mut Report) -> Self {
         let max_speed = given.max_speed.unwrap_or_else(|| expected_speed(frame, speeds));
-        let ripple = ripple_speed(given);
+        let ripple = ripple_speed(given, speeds.later_tension);
         let sound_speed = given
             .sound_speed
             .unwrap_or(SOUND_OVER_FLOW * max_speed.max(ripple));
@@ -113,14 +115,6 @@ impl Fluid {
             );
         }
         let compressible = given.solver != FluidSolver::Dfsph;
-        if compressible && sound_speed < 5.0 * max_speed {
-            report.notes.push(format!(
-                "fluid.sound_speed {} m/s is less than five times the expected speed {} m/s: density will vary by more \
-                 than 4 %",
-                number(sound_speed),
-                number(max_speed)
-            ));
-        }
         if ripple > 0.0 && given.negative_pressure == NegativePressure::Clamp {
             report.notes.push(
                 "surface tension cannot hold drops together while pressure is clamped: set fluid.negative_pressure to \
@@ -257,8 +251,30 @@ impl Fluid {
         self.spacing.powi(dimensions.count() as i32)
     }
 
-    /// Takes over what an event changes.
-    pub(super) fn change(&mut self, _: &model::Change) {}
+    /// Takes over what an event changes; of several fluids, of `material` alone where there is one.
+    pub(super) fn change(&mut self, change: &model::Change, material: Option<usize>) {
+        let set = |value: &mut f64, given: Option<f64>| *value = given.unwrap_or(*value);
+        for (i, own) in self.materials.iter_mut().enumerate() {
+            if material.is_none_or(|only| only == i) {
+                set(&mut own.viscosity, change.viscosity);
+                set(&mut own.surface_tension, change.surface_tension);
+            }
+        }
+        set(&mut self.artificial_viscosity, change.artificial_viscosity);
+        set(&mut self.sound_speed, change.sound_speed);
+        set(&mut self.wall_friction, change.wall_friction);
+    }
+
+    /// Notes that density will vary much.
+    pub(super) fn check_sound(&self, key: &str, report: &mut Report) {
+        if self.solver != FluidSolver::Dfsph && self.sound_speed < 5.0 * self.max_speed {
+            report.notes.push(format!(
+                "{key} {} m/s is less than five times the expected speed {} m/s: density will vary by more than 4 %",
+                number(self.sound_speed),
+                number(self.max_speed)
+            ));
+        }
+    }
 
     pub fn is_viscous(&self) -> bool {
         self.materials.iter().any(|material| material.viscosity > 0.0)
@@ -339,13 +355,13 @@ impl Fluid {
     }
 }
 
-/// Of the shortest waves of the surface, √(σ/ρΔx), m/s.
-fn ripple_speed(given: &model::Fluid) -> f64 {
+/// Of the shortest waves of the surface, √(σ/ρΔx), m/s, also where events set a surface tension of `later`.
+fn ripple_speed(given: &model::Fluid, later: f64) -> f64 {
     let own = (given.surface_tension, given.density);
     let all = given.materials.iter().map(|m| (m.surface_tension, m.density));
     let each = all.chain(given.materials.is_empty().then_some(own));
     let fastest = each
-        .map(|(tension, density)| tension / density)
+        .map(|(tension, density)| tension.max(later) / density)
         .fold(0.0, f64::max);
     (fastest / given.spacing).sqrt()
 }

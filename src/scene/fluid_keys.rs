@@ -1,5 +1,6 @@
 //! Keys that have no effect on what the scene is made of: a user who writes them expects something.
 
+use super::changes;
 use super::frame::Report;
 use super::model::{
     ColliderShape, Fluid, FluidSolver, Integrator, Kernel, NegativePressure, PressureForce, SceneFile, Slip,
@@ -28,6 +29,7 @@ pub fn check(file: &SceneFile, report: &mut Report) {
             .materials
             .iter()
             .all(|material| material.surface_tension == 0.0)
+        && changes::greatest_tension(file) == 0.0
     {
         report.problem(
             "fluid.contact_angle",

@@ -4,6 +4,7 @@
 
 mod bgeo;
 mod bodies;
+mod changes;
 pub mod check;
 pub mod color_maps;
 mod coloring;
@@ -165,10 +166,10 @@ pub enum Matter {
 
 impl Matter {
     /// Takes over what an event changes; grains get the contact law that holds from then on.
-    fn change(&mut self, contact: Option<Contact>, change: &model::Change) {
+    fn change(&mut self, contact: Option<Contact>, change: &model::Change, material: Option<usize>) {
         match (self, contact) {
             (Self::Grains(grains), Some(contact)) => grains.contact = contact,
-            (Self::Fluid(fluid), _) => fluid.change(change),
+            (Self::Fluid(fluid), _) => fluid.change(change, material),
             (Self::Grains(_), None) => {}
         }
     }

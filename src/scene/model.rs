@@ -618,24 +618,29 @@ pub struct Change {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub global_damping: Option<f64>,
-}
-
-impl Change {
-    /// Whether it says how grains touch.
-    pub fn changes_contacts(&self) -> bool {
-        let Self {
-            gravity: _,
-            spring,
-            damping,
-            restitution,
-            shear,
-            attraction,
-            global_damping,
-        } = self;
-        [spring, damping, restitution, shear, attraction, global_damping]
-            .iter()
-            .any(|given| given.is_some())
-    }
+    /// As `fluid.viscosity`, Pa·s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub viscosity: Option<f64>,
+    /// As `fluid.artificial_viscosity`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub artificial_viscosity: Option<f64>,
+    /// As `fluid.surface_tension`, N/m (N in 2D). Not of `dfsph`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub surface_tension: Option<f64>,
+    /// As `fluid.sound_speed`, m/s. Densities stay as they are, so pressures jump with its square. Not of `dfsph`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-9, max = 1e9))]
+    pub sound_speed: Option<f64>,
+    /// As `fluid.wall_friction`. Not of `dfsph`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub wall_friction: Option<f64>,
+    /// Name of one of `fluid.materials`, whose `viscosity` and `surface_tension` change; those of all when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
 }
 
 /// A ball of grains that appears and falls.

@@ -5,6 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::bodies::MOST_PARTICLES;
+use super::changes;
 use super::contact::Law;
 use super::emission;
 use super::fluid;
@@ -31,6 +32,8 @@ enum Due<'a> {
         /// Of grains, after the change.
         contact: Option<Contact>,
         change: &'a Change,
+        /// The only one of several fluids that changes.
+        material: Option<usize>,
     },
     Add(Particles),
 }
@@ -52,8 +55,9 @@ impl Schedule<'_> {
                 gravity,
                 contact,
                 change,
+                material,
             } => {
-                matter.change(contact, change);
+                matter.change(contact, change, material);
                 let matter = matter.clone();
                 Action::SetParameters { gravity, matter }
             }
@@ -141,16 +145,8 @@ impl<'a> Unroll<'a> {
         let time = event.at;
         if let Some(change) = &event.set {
             let place = format!("{path}.set");
-            let law = match self.law {
-                Some(law) => Some(law.changed(&place, change, report)),
-                None => {
-                    if change.changes_contacts() {
-                        let help = "a fluid has no contacts: only `gravity` can change";
-                        report.problem(&place, "changes how grains touch", help);
-                    }
-                    None
-                }
-            };
+            let material = changes::check(&place, change, self.file, report);
+            let law = self.law.map(|law| law.changed(&place, change, report));
             let gravity = match &change.gravity {
                 Some(gravity) => report.vector(&format!("{place}.gravity"), gravity, self.frame.dimensions),
                 None => self.gravity,
@@ -165,6 +161,7 @@ impl<'a> Unroll<'a> {
                         gravity,
                         contact,
                         change,
+                        material,
                     },
                 ));
             }

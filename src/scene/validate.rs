@@ -6,6 +6,7 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::bodies::{self, MOST_PARTICLES};
+use super::changes;
 use super::coloring::{self, Known};
 use super::contact::Law;
 use super::filling;
@@ -72,8 +73,10 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
                 particles: &particles,
                 gravity,
                 walls: fastest_wall(&file, &colliders),
+                later_tension: changes::greatest_tension(&file),
             };
             let fluid = Fluid::new(given, &frame, &speeds, &mut report);
+            fluid.check_sound("fluid.sound_speed", &mut report);
             start(&file, &fluid, gravity, &bodies, &mut particles, &mut report);
             if all_sound {
                 walls = walls::sample(&file, &frame, &colliders, fluid.wall_depth(), &mut report);
@@ -85,17 +88,17 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
                 Action::Add(_) => None,
             });
             let fluids: Vec<Fluid> = std::iter::once(fluid).chain(later).collect();
+            for pair in fluids
+                .windows(2)
+                .filter(|pair| pair[0].sound_speed != pair[1].sound_speed)
+            {
+                pair[1].check_sound("events[].set.sound_speed", &mut report);
+            }
             let time = time::of_fluid(&file.time, frames, &fluids, gravity.length(), &mut report);
             (matter, actions, time)
         }
     };
-    let capacity = capacity(
-        &file,
-        particles.len(),
-        walls.len(),
-        &schedule,
-        &mut report,
-    );
+    let capacity = capacity(&file, particles.len(), walls.len(), &schedule, &mut report);
     let shifts = file.fluid.as_ref().is_some_and(|fluid| fluid.shifting > 0.0);
     if shifts && file.time.integrator == Integrator::VelocityVerlet {
         report.problem(

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use crate::neighbors::{Grid, NO_VOXEL};
 use crate::neighbors::boxes::{VoxelBox, boxes};
+use crate::neighbors::{Grid, NO_VOXEL};
 use crate::physics::Model;
 use crate::physics::layout::{Convergence, Occupancy, Overflow, Packed, Sums};
 use crate::plan::Plan;

@@ -17,9 +17,9 @@ impl Simulation {
     /// Looks whether the last search had room, and makes room until every submitted step is done.
     pub(super) fn settle(&mut self) -> Result<()> {
         // Recorded steps are left out where lists stop serving, and where a search halts.
-        let mut left_out = self.buffers.contains("list_state");
+        let mut left_out = lists::wanted(&self.scene);
         loop {
-            let listed = self.buffers.contains("list_state");
+            let listed = lists::wanted(&self.scene);
             if self.can_halt(listed) {
                 let state = self.search_state()?;
                 if state.halted != 0 {

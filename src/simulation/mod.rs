@@ -27,8 +27,8 @@ use crate::gpu::readback::Ring;
 use crate::gpu::timing::Timer;
 use crate::gpu::{BufferPlan, Buffers, Gpu};
 use crate::neighbors::{Grid, boxes, lists};
-use crate::physics::collider::offset_at;
 use crate::physics::Written;
+use crate::physics::collider::offset_at;
 use crate::physics::layout::{Clock, Guard, Occupancy, Overflow, PACKED_BYTES, Pace, Parameters, Sums};
 use crate::plan::Plan;
 use crate::render::Renderer;
@@ -521,7 +521,14 @@ impl Simulation {
         let statistics = self.plan.wanted.statistics.then(|| {
             let sums: Sums = bytemuck::pod_read_unaligned(by_name["sums"]);
             let occupancy: Occupancy = bytemuck::pod_read_unaligned(by_name["occupancy_count"]);
-            Statistics::new(&self.scene, self.plan.model, pending.particles, sums, occupancy, overflow)
+            Statistics::new(
+                &self.scene,
+                self.plan.model,
+                pending.particles,
+                sums,
+                occupancy,
+                overflow,
+            )
         });
         let time = &self.scene.time;
         let adaptive = self.adaptive_steps(pace.as_ref());

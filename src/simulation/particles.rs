@@ -58,7 +58,8 @@ impl Simulation {
             // The others have by now what their last step left.
             match field.ends_in {
                 Some((other, place)) => {
-                    let bytes = readback::read::<u8>(gpu, self.buffers.get(other, "(host)")?, self.bytes_of(other))?;
+                    let bytes =
+                        readback::read::<u8>(gpu, self.buffers.get(other, "(host)")?, self.bytes_of(other))?;
                     let numbers = self.number_of(other, place, &bytes);
                     self.buffers.write(gpu, &next, 0, &numbers)?;
                 }

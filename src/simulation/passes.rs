@@ -87,7 +87,7 @@ impl Passes {
             };
             plan.in_phase(phase).map(step).collect()
         };
-        let back = buffers.contains("listed_position");
+        let back = plan.goes_by_twos();
         Ok(Self {
             start: made(Phase::Start, false)?,
             step: made(Phase::Step, false)?,

@@ -206,7 +206,7 @@ impl Simulation {
         self.submitted = u64::from(clock.step);
         self.last_look = clock.step;
         self.buffers.write(&self.gpu, "clock", 0, &[clock])?;
-        if self.buffers.contains("list_state") {
+        if lists::wanted(&self.scene) {
             let lists = ListState {
                 first_step: clock.step,
                 last_step: clock.step,
@@ -217,7 +217,9 @@ impl Simulation {
         // The search puts every particle where it stood, since it keeps the order inside a voxel.
         for field in self.scene.fields() {
             let stored = match field.ends_in {
-                Some((other, place)) => state.buffer(other).map(|bytes| self.number_of(other, place, bytes)),
+                Some((other, place)) => state
+                    .buffer(other)
+                    .map(|bytes| self.number_of(other, place, bytes)),
                 None => state.buffer(field.name).map(<[u8]>::to_vec),
             };
             self.put(&field.before_search(), stored.as_deref())?;
