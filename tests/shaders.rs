@@ -13,7 +13,8 @@ use sliceflow::gpu::{Shader, Variant};
 use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
 use sliceflow::physics::layout::SHARED;
 use sliceflow::plan::{PassRow, Phase, Plan, Wanted};
-use sliceflow::scene::column::{COLUMNS, Source};
+use sliceflow::scene::Scene;
+use sliceflow::scene::column::{COLUMNS, Source, find};
 
 fn wanted() -> Wanted {
     let measured = COLUMNS.iter().copied().filter(|c| c.source == Source::Measured);
@@ -239,22 +240,47 @@ fn every_planned_buffer_is_used_by_a_pass() {
 /// Plans of what is off in the others.
 fn bare_plans() -> Vec<Plan> {
     let bare = Wanted::default();
-    let nothing = ["colliders=[]"];
-    let loose = ["neighbors.deterministic=false", "neighbors.storage=counting"];
     let mut scenes = vec![
-        common::scene(2, &nothing),
-        common::scene(3, &loose),
-        common::fluid(2, &nothing),
+        common::scene(2, &["colliders=[]"]),
+        common::scene(
+            3,
+            &["neighbors.deterministic=false", "neighbors.storage=counting"],
+        ),
+        common::scene(
+            2,
+            &[BLOCK, "neighbors.addressing=uniform", "neighbors.storage=bitonic"],
+        ),
+        common::fluid(2, &["colliders=[]"]),
         common::fluid(2, &["colliders=[]", "domain.walls=periodic", "gravity=[0,0]"]),
         common::fluid(3, &["fluid.density_diffusion=0", "fluid.slip=free_slip"]),
+        common::fluid(2, &["fluid.artificial_viscosity=0.1", "fluid.slip=free_slip"]),
+        common::fluid(2, &["fluid.solver=dfsph", "colliders=[]", "domain.walls=open"]),
     ];
-    scenes.push(common::fluid(
-        2,
-        &["fluid.solver=dfsph", "colliders=[]", "domain.walls=open"],
-    ));
-    let plan = |scene| Plan::new(&scene, &Limits::PROMISED, &bare).expect("a plan");
-    scenes.into_iter().map(plan).collect()
+    // So many that indices need more than 16 bits.
+    let mut many = common::scene(2, &["neighbors.storage=bitonic"]);
+    many.capacity = 100_000;
+    scenes.push(many);
+    let plan = |scene: &Scene, wanted| Plan::new(scene, &Limits::PROMISED, wanted).expect("a plan");
+    let mut plans: Vec<Plan> = scenes.iter().map(|scene| plan(scene, &bare)).collect();
+    let some = |statistics, columns| Wanted {
+        statistics,
+        columns,
+        ..Wanted::default()
+    };
+    let contacts = find("contacts").expect("a column");
+    for wanted in [some(true, Vec::new()), some(false, vec![contacts])] {
+        plans.extend(
+            scenes[..1]
+                .iter()
+                .chain(&scenes[3..4])
+                .map(|scene| plan(scene, &wanted)),
+        );
+    }
+    plans
 }
+
+/// An obstacle that rests.
+const BLOCK: &str = "colliders=[{\"shape\":{\"kind\":\"sphere\",\"center\":[0.5,0.1],\"radius\":0.05}}]";
 
 #[test]
 fn every_flag_is_composed_both_on_and_off() {

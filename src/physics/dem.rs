@@ -17,7 +17,6 @@ const FAR: f32 = 1e30;
 
 /// The row of grains.
 pub(super) const MODEL: Model = Model {
-    name: "dem",
     moves: |matter| matter.grains().is_some(),
     plan,
     parameters,
@@ -149,7 +148,11 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         solver.measure.push(pass("measure", "measure_grains", why));
     }
     solver.notes.clone_from(&obstacles.notes);
-    solver.obstacles = obstacles;
+    solver.obstacles = Obstacles {
+        // The buffer holds them now.
+        field: Vec::new(),
+        ..obstacles
+    };
     solver
 }
 

@@ -36,7 +36,6 @@ const WARM_CORRECTION: f32 = 0.9;
 
 /// The row of incompressible fluids.
 pub(super) const MODEL: Model = Model {
-    name: "dfsph",
     moves: |matter| {
         matter
             .fluid()

@@ -26,7 +26,6 @@ const USUAL_SHIFT: f64 = 4.0;
 
 /// The row of weakly compressible fluids.
 pub(super) const MODEL: Model = Model {
-    name: "wcsph",
     moves: |matter| {
         matter
             .fluid()

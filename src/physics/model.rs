@@ -11,7 +11,6 @@ use crate::scene::{Matter, Scene};
 /// A solver. Nothing outside of `scene` and `physics` asks what particles are made of; it asks the row.
 #[derive(Debug)]
 pub struct Model {
-    pub name: &'static str,
     /// Whether it moves such particles.
     pub moves: fn(&Matter) -> bool,
     /// Buffers and passes, and what the shaders of this scene are made of.
