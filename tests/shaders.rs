@@ -269,12 +269,9 @@ fn bare_plans() -> Vec<Plan> {
     };
     let contacts = find("contacts").expect("a column");
     for wanted in [some(true, Vec::new()), some(false, vec![contacts])] {
-        plans.extend(
-            scenes[..1]
-                .iter()
-                .chain(&scenes[3..4])
-                .map(|scene| plan(scene, &wanted)),
-        );
+        for scene in [&scenes[0], &scenes[3]] {
+            plans.push(plan(scene, &wanted));
+        }
     }
     plans
 }
