@@ -260,7 +260,7 @@ fn bare_plans() -> Vec<Plan> {
     let mut many = common::scene(2, &["neighbors.storage=bitonic"]);
     many.capacity = 100_000;
     scenes.push(many);
-    let plan = |scene: &Scene, wanted| Plan::new(scene, &Limits::PROMISED, wanted).expect("a plan");
+    let plan = |scene: &Scene, wanted: &Wanted| Plan::new(scene, &Limits::PROMISED, wanted).expect("a plan");
     let mut plans: Vec<Plan> = scenes.iter().map(|scene| plan(scene, &bare)).collect();
     let some = |statistics, columns| Wanted {
         statistics,
