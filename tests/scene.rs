@@ -533,7 +533,7 @@ fn events_change_what_a_solver_has_and_nothing_else() {
         "events[0].set.viscosity",
         "events[0].set.sound_speed",
         "has no effect on grains",
-        "gravity, spring",
+        "`gravity`, `spring`",
     ] {
         assert!(told_of_grains.contains(part), "{part}: {told_of_grains}");
     }
@@ -542,7 +542,7 @@ fn events_change_what_a_solver_has_and_nothing_else() {
     for part in [
         "events[0].set.sound_speed",
         "events[0].set.spring",
-        "gravity, viscosity and artificial_viscosity",
+        "`gravity`, `viscosity`, `artificial_viscosity`",
     ] {
         assert!(told_of_dfsph.contains(part), "{part}: {told_of_dfsph}");
     }
