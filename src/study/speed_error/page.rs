@@ -100,9 +100,13 @@ fn key(rung: &Rung) -> (String, u32) {
     (rung.name.clone(), rung.resolution)
 }
 
-/// Without digits that mean nothing.
+/// Three digits, without those that mean nothing.
 fn rounded(value: Option<f64>) -> Cell {
-    value.map_or(Cell::Nothing, |value| Cell::count(value.round() as u64))
+    let Some(value) = value.filter(|value| value.is_finite()) else {
+        return Cell::Nothing;
+    };
+    let unit = 10f64.powi((value.abs().max(1.0).log10().floor() as i32 - 2).max(0));
+    Cell::count(((value / unit).round() * unit) as u64)
 }
 
 fn peers(page: &mut Page, ladder: &Ladder) {
@@ -160,6 +164,16 @@ fn diagram(ladder: &Ladder, adapter: &str) -> Option<Plot> {
     .log_x()
     .log_y();
     let place = |rung: &Rung| rung.point().map(|[time, error]| (time, error));
+    // Below the others, whose markers say what it goes through.
+    plot = plot.series("front", front.iter().filter_map(|rung| place(rung)));
+    if front.len() <= MOST_LABELS {
+        let short = |rung: &&Rung| match rung.name.split_once(", ") {
+            // Both solvers have their labels already.
+            None => String::new(),
+            Some((solver, choice)) => format!("{choice} ({solver})"),
+        };
+        plot = plot.labelled(front.iter().map(short));
+    }
     for solver in ["wcsph", "dfsph"] {
         let of = |plain: bool| {
             let wanted = move |rung: &&Rung| {
@@ -175,15 +189,6 @@ fn diagram(ladder: &Ladder, adapter: &str) -> Option<Plot> {
         if of(false).next().is_some() {
             plot = plot.points(format!("{solver}, one choice changed"), of(false).filter_map(place));
         }
-    }
-    plot = plot.series("front", front.iter().filter_map(|rung| place(rung)));
-    if front.len() <= MOST_LABELS {
-        let short = |rung: &&Rung| match rung.name.split_once(", ") {
-            // Both solvers have their labels already.
-            None => String::new(),
-            Some((solver, choice)) => format!("{choice} ({solver})"),
-        };
-        plot = plot.labelled(front.iter().map(short));
     }
     for (program, outcome) in &ladder.peers {
         if let Outcome::Ran(all) = outcome {

@@ -145,6 +145,7 @@ pub fn run(settings: &Settings, mut keep: impl FnMut(&Report) -> Result<()>) -> 
             let measured = match known {
                 _ if interrupt::asked() => Err("interrupted".to_owned()),
                 Err(why) => Err(why.clone()),
+                Ok(_) if left <= 0.0 => Err("no time is left".to_owned()),
                 Ok(Some(cost)) if cost.at(particles) > left => Err(format!(
                     "would take about {} of {} that are left",
                     seconds(cost.at(particles)),
