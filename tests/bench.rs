@@ -16,7 +16,8 @@ fn bench(args: &[&str], folder: &Path) -> Command {
 fn told(command: &mut Command, code: i32) -> String {
     let assert = command.assert().code(code);
     let output = assert.get_output();
-    let [out, err] = [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned());
+    let [out, err] =
+        [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned());
     out + &err
 }
 
@@ -29,8 +30,15 @@ fn every_scene_is_measured_and_can_be_compared() {
     let text = told(&mut bench(&args, folder.path()), 0);
     let json = std::fs::read_to_string(folder.path().join("a.json")).expect("JSON");
     let report: Value = serde_json::from_str(&json).expect("valid JSON");
-    assert!(text.contains(report["machine"]["adapter"].as_str().expect("a name")), "{text}");
-    assert_eq!(report["left_out"].as_array().expect("a list").len(), 0, "{report}");
+    assert!(
+        text.contains(report["machine"]["adapter"].as_str().expect("a name")),
+        "{text}"
+    );
+    assert_eq!(
+        report["left_out"].as_array().expect("a list").len(),
+        0,
+        "{report}"
+    );
     let number = |value: &Value| value.as_f64().unwrap_or_else(|| panic!("{value} in {report}"));
     assert!(number(&report["probes"]["copy_bytes_per_s"]) > 0.0);
     assert!(number(&report["probes"]["operations_per_s"]) > 0.0);
@@ -77,7 +85,10 @@ fn every_scene_is_measured_and_can_be_compared() {
     std::fs::write(folder.path().join("b.json"), faster.to_string()).expect("a file");
     let compared = told(&mut bench(&["compare", "a.json", "b.json"], folder.path()), 0);
     assert_eq!(compared.matches("faster").count(), 6, "{compared}");
-    assert!(compared.contains("× 1000.00") && compared.contains("only in before: grains_2d"), "{compared}");
+    assert!(
+        compared.contains("× 1000.00") && compared.contains("only in before: grains_2d"),
+        "{compared}"
+    );
     let compared = told(&mut bench(&["compare", "b.json", "a.json"], folder.path()), 0);
     assert_eq!(compared.matches("slower").count(), 6, "{compared}");
 }

@@ -393,13 +393,18 @@ fn speed_is_weighed_against_error() {
 
     // `plan` takes what was measured.
     let results = folder.path().join("achieved.json");
-    let achieved: Value = serde_json::from_str(&std::fs::read_to_string(&results).expect("results")).expect("JSON");
+    let achieved: Value =
+        serde_json::from_str(&std::fs::read_to_string(&results).expect("results")).expect("JSON");
     let worst = achieved["rungs"].as_array().expect("rungs").iter();
-    let worst = worst.filter(|rung| rung["case"] == "still_water").filter_map(|rung| rung["error"].as_f64());
+    let worst = worst
+        .filter(|rung| rung["case"] == "still_water")
+        .filter_map(|rung| rung["error"].as_f64());
     let asked = format!("{}%", worst.fold(0.0, f64::max) + 1.0);
     let plan = |error: &str| {
         let mut command = Command::cargo_bin("sliceflow").expect("the program is built");
-        command.args(["plan", "still_water", "--error", error, "--json", "--results"]).arg(&results);
+        command
+            .args(["plan", "still_water", "--error", error, "--json", "--results"])
+            .arg(&results);
         command
     };
     let assert = plan(&asked).assert().success();
@@ -415,7 +420,10 @@ fn speed_is_weighed_against_error() {
 fn only_one_study_runs_other_programs() {
     let folder = tempfile::tempdir().expect("a folder");
     let refused = |paper: &str, python: &str| {
-        let output = study(paper, folder.path()).args(["--peers", python]).output().expect("it starts");
+        let output = study(paper, folder.path())
+            .args(["--peers", python])
+            .output()
+            .expect("it starts");
         assert_eq!(output.status.code(), Some(2));
         String::from_utf8_lossy(&output.stderr).into_owned()
     };

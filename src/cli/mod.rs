@@ -35,10 +35,10 @@ mod study;
 mod surface;
 mod table;
 
-#[cfg(not(feature = "study"))]
-use absent::{bench, study};
 #[cfg(not(feature = "surface"))]
 use absent::surface;
+#[cfg(not(feature = "study"))]
+use absent::{bench, study};
 use clap::{CommandFactory as _, Parser, Subcommand};
 
 use crate::error::Result;

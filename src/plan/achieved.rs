@@ -125,17 +125,26 @@ impl Achieved {
         }
         fitting.sort_by(|a, b| a.wall_per_simulated.total_cmp(&b.wall_per_simulated));
         let Some(best) = fitting.iter().find(|rung| rung.error <= error) else {
-            let least = fitting.iter().map(|rung| rung.error).fold(f64::INFINITY, f64::min);
+            let least = fitting
+                .iter()
+                .map(|rung| rung.error)
+                .fold(f64::INFINITY, f64::min);
             return Err(Error::usage(
                 format!(
                     "no result of `{}` has an error of {error} % or less: the smallest is {least:.2} % of {}",
                     kind.case, fitting[0].figure
                 ),
-                format!("ask for --error {}%, or name another case with --like", (least * 100.0).ceil() / 100.0),
+                format!(
+                    "ask for --error {}%, or name another case with --like",
+                    (least * 100.0).ceil() / 100.0
+                ),
             ));
         };
         let mut set = best.set.clone();
-        set.push(format!("fluid.spacing={:.4e}", length / f64::from(best.resolution)));
+        set.push(format!(
+            "fluid.spacing={:.4e}",
+            length / f64::from(best.resolution)
+        ));
         Ok(Advice {
             like: kind.case.to_owned(),
             why: match like {
@@ -167,7 +176,10 @@ fn kind_of(scene: &Scene, like: Option<&str>) -> Result<&'static Kind> {
     }
     if let Some(case) = like {
         return find(case).ok_or_else(|| {
-            Error::usage(format!("no result is of a case `{case}`"), format!("name one of {}", names()))
+            Error::usage(
+                format!("no result is of a case `{case}`"),
+                format!("name one of {}", names()),
+            )
         });
     }
     let dimensions = scene.dimensions.count();
@@ -177,7 +189,9 @@ fn kind_of(scene: &Scene, like: Option<&str>) -> Result<&'static Kind> {
     let case = match (weightless, periodic) {
         (true, n) if n == dimensions => "taylor_green_2d",
         (false, n) if n > 0 && n < dimensions && fills(scene, across_channel(scene)) => "poiseuille",
-        (false, 0) if (0..dimensions).all(|axis| axis == vertical(scene) || fills(scene, axis)) => "still_water",
+        (false, 0) if (0..dimensions).all(|axis| axis == vertical(scene) || fills(scene, axis)) => {
+            "still_water"
+        }
         (false, 0) => "martin_moyce",
         _ => {
             return Err(Error::usage(
@@ -192,7 +206,9 @@ fn kind_of(scene: &Scene, like: Option<&str>) -> Result<&'static Kind> {
 /// The axis along which gravity acts most.
 fn vertical(scene: &Scene) -> usize {
     let weight = scene.gravity.abs();
-    (0..3).max_by(|&a, &b| weight[a].total_cmp(&weight[b])).unwrap_or(1)
+    (0..3)
+        .max_by(|&a, &b| weight[a].total_cmp(&weight[b]))
+        .unwrap_or(1)
 }
 
 /// The shortest axis that is not periodic.
@@ -229,18 +245,23 @@ fn length(scene: &Scene, kind: &Kind) -> Result<f64> {
     let period = scene.domain.period();
     let length = match kind.case {
         "taylor_green_2d" => {
-            let periods = (0..scene.dimensions.count()).map(|axis| period[axis]).filter(|&p| p > 0.0);
+            let periods = (0..scene.dimensions.count())
+                .map(|axis| period[axis])
+                .filter(|&p| p > 0.0);
             periods.reduce(f32::min)
         }
         "poiseuille" => Some(extent[across_channel(scene)]),
         _ => ends(scene, vertical(scene)).map(|[low, high]| high - low),
     };
-    length.map(f64::from).filter(|&length| length > 0.0).ok_or_else(|| {
-        Error::usage(
-            format!("the scene has no length like {} of `{}`", kind.length, kind.case),
-            "give it particles at the start, or name another case with --like",
-        )
-    })
+    length
+        .map(f64::from)
+        .filter(|&length| length > 0.0)
+        .ok_or_else(|| {
+            Error::usage(
+                format!("the scene has no length like {} of `{}`", kind.length, kind.case),
+                "give it particles at the start, or name another case with --like",
+            )
+        })
 }
 
 /// Pairs of a particle inside a fluid with this support, from both sides.
@@ -312,7 +333,9 @@ mod tests {
         }
         let told = kind_of(&scene("column_2d", &[]), None).map(|_| ()).unwrap_err();
         assert!(told.to_string().contains("grains"), "{told}");
-        let told = kind_of(&scene("ringing_drop", &[]), None).map(|_| ()).unwrap_err();
+        let told = kind_of(&scene("ringing_drop", &[]), None)
+            .map(|_| ())
+            .unwrap_err();
         assert!(told.to_string().contains("--like"), "{told}");
     }
 
@@ -324,13 +347,23 @@ mod tests {
         assert_eq!(advice.set[0], "fluid.solver=dfsph");
         // 0.75 m high.
         assert!((advice.length - 0.75).abs() < 1e-3, "{}", advice.length);
-        assert!(advice.set[1].starts_with("fluid.spacing=1.87"), "{:?}", advice.set);
+        assert!(
+            advice.set[1].starts_with("fluid.spacing=1.87"),
+            "{:?}",
+            advice.set
+        );
         assert_eq!(of(1.5).unwrap().set[0], "fluid.solver=wcsph");
         assert_eq!(of(5.0).unwrap().across, 20);
         let told = of(0.5).unwrap_err().to_string();
         assert!(told.contains("1.00 %") && told.contains("--error 1%"), "{told}");
-        let told = table().advise(&scene, 2.0, Some("still_water")).unwrap_err().to_string();
-        assert!(told.contains("still_water") && told.contains("speed-error"), "{told}");
+        let told = table()
+            .advise(&scene, 2.0, Some("still_water"))
+            .unwrap_err()
+            .to_string();
+        assert!(
+            told.contains("still_water") && told.contains("speed-error"),
+            "{told}"
+        );
         assert!(table().advise(&scene, 2.0, Some("tea")).is_err());
     }
 

@@ -80,13 +80,16 @@ fn compared(before: &Report, after: &Report) -> Result<String> {
             .runs
             .iter()
             .filter(|a| !those.runs.iter().any(|b| same(a, b)));
-        alone.map(|run| format!("{} of {}", run.scene, count(run.particles.into()))).collect()
+        alone
+            .map(|run| format!("{} of {}", run.scene, count(run.particles.into())))
+            .collect()
     };
     for (which, runs) in [("before", only(before, after)), ("after", only(after, before))] {
         if !runs.is_empty() {
             text += &format!("\nonly in {which}: {}\n", runs.join(", "));
         }
     }
-    Ok(text
-        + "\nSpeed is how many times as fast the second one is. It differs where no round of one took as long as a round of the other.\n")
+    Ok(
+        text + "\nSpeed is how many times as fast the second one is. It differs where no round of one took as long as a round of the other.\n"
+    )
 }

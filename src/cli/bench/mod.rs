@@ -70,7 +70,10 @@ Examples:
 
 fn after_help() -> String {
     let scene = |row: &suite::scenes::Subject| format!("  {:<20}{}\n", row.name, row.about);
-    format!("Scenes:\n{}\n{EXAMPLES}", SUBJECTS.iter().map(scene).collect::<String>())
+    format!(
+        "Scenes:\n{}\n{EXAMPLES}",
+        SUBJECTS.iter().map(scene).collect::<String>()
+    )
 }
 
 pub fn main(args: &Args) -> Result<()> {
@@ -101,7 +104,9 @@ pub fn main(args: &Args) -> Result<()> {
         (false, _) => Ok(()),
         (true, 0) => Err(Error::interrupted("nothing was finished")),
         (true, 1) => Err(Error::interrupted("one measurement was finished")),
-        (true, finished) => Err(Error::interrupted(format!("{finished} measurements were finished"))),
+        (true, finished) => Err(Error::interrupted(format!(
+            "{finished} measurements were finished"
+        ))),
     }
 }
 

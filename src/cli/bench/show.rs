@@ -35,15 +35,24 @@ reached on this device; what grids, and pairs out of reach, take comes on top.
 /// What measured, and when.
 pub fn head(report: &Report) -> String {
     let machine = &report.machine;
-    let mut text = format!("Sliceflow {}, bench of size {}, {}\n", report.sliceflow, report.size, report.date);
+    let mut text = format!(
+        "Sliceflow {}, bench of size {}, {}\n",
+        report.sliceflow, report.size, report.date
+    );
     let mut line = |name: &str, value: String| {
         let _ = writeln!(text, "{name:<11}{value}");
     };
-    line("adapter", format!("{} ({}, {})", machine.adapter, machine.kind, machine.backend));
+    line(
+        "adapter",
+        format!("{} ({}, {})", machine.adapter, machine.kind, machine.backend),
+    );
     line("driver", machine.driver.clone());
     line(
         "processor",
-        format!("{}, {} threads, {}", machine.processor, machine.threads, machine.system),
+        format!(
+            "{}, {} threads, {}",
+            machine.processor, machine.threads, machine.system
+        ),
     );
     match &report.probes {
         Some(probes) => line(
@@ -126,7 +135,11 @@ fn passes(report: &Report) -> Table {
             let first = place == 0;
             table.row([
                 if first { run.scene.clone() } else { String::new() },
-                if first { count(run.particles.into()) } else { String::new() },
+                if first {
+                    count(run.particles.into())
+                } else {
+                    String::new()
+                },
                 pass.name.clone(),
                 milliseconds(pass.ms),
                 percent(Some(pass.ms / all)),
@@ -140,7 +153,11 @@ fn passes(report: &Report) -> Table {
             table.row([
                 String::new(),
                 String::new(),
-                if rest == 1 { "another".to_owned() } else { format!("{rest} others") },
+                if rest == 1 {
+                    "another".to_owned()
+                } else {
+                    format!("{rest} others")
+                },
                 milliseconds(ms),
                 percent(Some(ms / all)),
                 String::new(),

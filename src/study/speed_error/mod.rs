@@ -135,9 +135,7 @@ fn ladder(page: &mut Page, bench: &Bench, shared: &mut Shared, index: usize) -> 
         ));
         let rung = match first_run(bench, subject, &way) {
             Err(error @ Error::Interrupted { .. }) => return Err(error),
-            Err(error) => {
-                Rung::failed(subject.case.name, &way, first_line(&error))
-            }
+            Err(error) => Rung::failed(subject.case.name, &way, first_line(&error)),
             Ok(rung) => rung,
         };
         bench.check()?;
@@ -145,7 +143,11 @@ fn ladder(page: &mut Page, bench: &Bench, shared: &mut Shared, index: usize) -> 
     }
     let repeats = if shared.size == Size::Tiny { 1 } else { REPEATS };
     for turn in 1..repeats {
-        bench.tell(&format!("speed-error: {}, turn {} of {repeats}", subject.case.name, turn + 1));
+        bench.tell(&format!(
+            "speed-error: {}, turn {} of {repeats}",
+            subject.case.name,
+            turn + 1
+        ));
         for rung in ladder.rungs.iter_mut().filter(|rung| rung.trouble.is_none()) {
             if start.elapsed().as_secs_f64() > limit {
                 break;
@@ -155,7 +157,10 @@ fn ladder(page: &mut Page, bench: &Bench, shared: &mut Shared, index: usize) -> 
             rung.wall.push(record.wall);
         }
     }
-    for peer in PEERS.iter().filter(|peer| peer.cases.contains(&subject.case.name)) {
+    for peer in PEERS
+        .iter()
+        .filter(|peer| peer.cases.contains(&subject.case.name))
+    {
         if !shared.interpreters.is_empty() {
             bench.tell(&format!("speed-error: {}, {}", subject.case.name, peer.program));
         }
@@ -218,7 +223,10 @@ fn pairs_at_start(bench: &Bench, scene: &Scene) -> Result<f64> {
 fn on_front(rungs: &[Rung]) -> Vec<&Rung> {
     let with_result: Vec<&Rung> = rungs.iter().filter(|rung| rung.point().is_some()).collect();
     let points: Vec<_> = with_result.iter().filter_map(|rung| rung.point()).collect();
-    front(&points).into_iter().map(|index| with_result[index]).collect()
+    front(&points)
+        .into_iter()
+        .map(|index| with_result[index])
+        .collect()
 }
 
 /// What `plan --error` may advise.
@@ -240,9 +248,17 @@ fn achieved(ladder: &Ladder) -> Vec<Achievement> {
 
 /// The keys of a rung for another scene, whose steps have another length.
 fn advised(name: &str, set: &[String]) -> Vec<String> {
-    let solver = if name.starts_with("dfsph") { "dfsph" } else { "wcsph" };
-    let kept = set.iter().filter(|key| !key.starts_with("time.step=") && !key.starts_with("fluid.solver="));
-    std::iter::once(format!("fluid.solver={solver}")).chain(kept.cloned()).collect()
+    let solver = if name.starts_with("dfsph") {
+        "dfsph"
+    } else {
+        "wcsph"
+    };
+    let kept = set
+        .iter()
+        .filter(|key| !key.starts_with("time.step=") && !key.starts_with("fluid.solver="));
+    std::iter::once(format!("fluid.solver={solver}"))
+        .chain(kept.cloned())
+        .collect()
 }
 
 #[cfg(test)]
@@ -274,7 +290,10 @@ mod tests {
     #[test]
     fn advice_names_the_solver_and_no_length_of_a_step() {
         let set = ["time.step=1e-4".to_owned(), "fluid.support=2".to_owned()];
-        assert_eq!(advised("wcsph, steps", &set), ["fluid.solver=wcsph", "fluid.support=2"]);
+        assert_eq!(
+            advised("wcsph, steps", &set),
+            ["fluid.solver=wcsph", "fluid.support=2"]
+        );
         let set = ["fluid.solver=dfsph".to_owned()];
         assert_eq!(advised("dfsph", &set), ["fluid.solver=dfsph"]);
     }

@@ -37,7 +37,10 @@ pub fn ladder(page: &mut Page, ladder: &Ladder, adapter: &str) -> Result<()> {
     let (subject, case) = (ladder.subject, &ladder.subject.case);
     page.heading(case.title);
     page.paragraph(case.about);
-    page.paragraph(format!("Here the error is the magnitude of “{}”, in percent.", subject.figure));
+    page.paragraph(format!(
+        "Here the error is the magnitude of “{}”, in percent.",
+        subject.figure
+    ));
     let best: Vec<_> = on_front(&ladder.rungs).iter().map(|rung| key(rung)).collect();
     let mut table = Table::new([
         "way",
@@ -77,7 +80,10 @@ pub fn ladder(page: &mut Page, ladder: &Ladder, adapter: &str) -> Result<()> {
     }
     page.table(case.name, &table);
     if !ladder.left_out.is_empty() {
-        page.paragraph(format!("Left out for want of time: {}.", ladder.left_out.join("; ")));
+        page.paragraph(format!(
+            "Left out for want of time: {}.",
+            ladder.left_out.join("; ")
+        ));
     }
     peers(page, ladder);
     match diagram(ladder, adapter) {
@@ -187,7 +193,10 @@ fn diagram(ladder: &Ladder, adapter: &str) -> Option<Plot> {
                 .labelled(of(true).map(|rung| (case.label)(rung.resolution)));
         }
         if of(false).next().is_some() {
-            plot = plot.points(format!("{solver}, one choice changed"), of(false).filter_map(place));
+            plot = plot.points(
+                format!("{solver}, one choice changed"),
+                of(false).filter_map(place),
+            );
         }
     }
     for (program, outcome) in &ladder.peers {
@@ -207,7 +216,9 @@ fn with_peer(mut plot: Plot, program: &str, all: &[Told], label: fn(u32) -> Stri
             .iter()
             .filter(|told| told.method == method && told.error.is_some())
             .collect();
-        let points = runs.iter().filter_map(|told| Some((told.wall / told.simulated, told.error?)));
+        let points = runs
+            .iter()
+            .filter_map(|told| Some((told.wall / told.simulated, told.error?)));
         plot = plot
             .points(format!("{program}, {method}"), points)
             .labelled(runs.iter().map(|told| label(told.resolution)));

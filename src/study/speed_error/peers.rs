@@ -100,7 +100,8 @@ pub fn run(
         let mut command = Command::new(python);
         command.arg(&script).arg(case).arg(repeats.to_string());
         let output = command.args(resolutions.iter().map(u32::to_string)).output();
-        let output = output.map_err(|reason| Error::file(python, "start", reason, "name another with --peers"))?;
+        let output =
+            output.map_err(|reason| Error::file(python, "start", reason, "name another with --peers"))?;
         // Scripts are the program's own, so none stays.
         let _ = std::fs::remove_file(&script);
         match read(&String::from_utf8_lossy(&output.stdout)) {
@@ -120,7 +121,9 @@ pub fn run(
 fn read(text: &str) -> std::result::Result<Vec<Told>, String> {
     let mut all = Vec::new();
     for line in text.lines().filter_map(|line| line.strip_prefix("POINT ")) {
-        all.push(serde_json::from_str(line).map_err(|error| format!("its script printed `{line}`: {error}"))?);
+        all.push(
+            serde_json::from_str(line).map_err(|error| format!("its script printed `{line}`: {error}"))?,
+        );
     }
     match text.lines().find_map(|line| line.strip_prefix("MISSING ")) {
         Some(why) if all.is_empty() => Err(why.to_owned()),
@@ -145,7 +148,10 @@ mod tests {
         let line = r#"POINT {"program":"P 1","method":"DFSPH","resolution":20,"particles":400,"steps":10,"simulated":0.3,"wall":1.5,"error":2.5}"#;
         let all = read(&format!("hello\n{line}\nbye\n")).unwrap();
         assert_eq!((all.len(), all[0].resolution, all[0].error), (1, 20, Some(2.5)));
-        assert_eq!(read("MISSING no module pysph\n"), Err("no module pysph".to_owned()));
+        assert_eq!(
+            read("MISSING no module pysph\n"),
+            Err("no module pysph".to_owned())
+        );
         assert!(read("POINT {}\n").unwrap_err().contains("missing field"));
         assert!(read("nothing\n").unwrap().is_empty());
     }
@@ -176,6 +182,9 @@ mod tests {
     #[test]
     fn what_is_no_interpreter_is_refused() {
         let told = check(&["/no/such/python".into()]).unwrap_err().to_string();
-        assert!(told.contains("/no/such/python") && told.contains("--peers"), "{told}");
+        assert!(
+            told.contains("/no/such/python") && told.contains("--peers"),
+            "{told}"
+        );
     }
 }

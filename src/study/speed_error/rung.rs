@@ -48,7 +48,11 @@ impl Rung {
             particle_updates: record.particle_updates,
             pairs_per_particle,
             error: value.map(f64::abs),
-            trouble: record.diverged.as_ref().map(|why| format!("diverged: {why}")).or(missing),
+            trouble: record
+                .diverged
+                .as_ref()
+                .map(|why| format!("diverged: {why}"))
+                .or(missing),
         }
     }
 
@@ -74,7 +78,9 @@ impl Rung {
     /// Median over the runs, s/s.
     pub fn wall_per_simulated(&self) -> Option<f64> {
         let wall = median(self.wall.clone());
-        (wall / self.simulated).is_finite().then_some(wall / self.simulated)
+        (wall / self.simulated)
+            .is_finite()
+            .then_some(wall / self.simulated)
     }
 
     /// Shortest and longest run, s/s.
@@ -120,7 +126,14 @@ mod tests {
 
     #[test]
     fn nobody_beats_the_front() {
-        let points = [[4.0, 1.0], [1.0, 4.0], [2.0, 2.0], [3.0, 3.0], [2.0, 5.0], [4.0, 1.0]];
+        let points = [
+            [4.0, 1.0],
+            [1.0, 4.0],
+            [2.0, 2.0],
+            [3.0, 3.0],
+            [2.0, 5.0],
+            [4.0, 1.0],
+        ];
         assert_eq!(front(&points), [1, 2, 0, 5]);
         assert!(front(&[]).is_empty());
     }
@@ -145,6 +158,10 @@ mod tests {
         assert!(some.point().is_some());
         let none = rung(f64::NAN);
         assert!(none.point().is_none() && none.trouble.is_some());
-        assert!(Rung::failed("a", &way, "no".into()).wall_per_simulated().is_none());
+        assert!(
+            Rung::failed("a", &way, "no".into())
+                .wall_per_simulated()
+                .is_none()
+        );
     }
 }

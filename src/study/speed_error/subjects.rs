@@ -203,7 +203,12 @@ mod tests {
                     // Periodic sides need lists.
                     if let Err(error) = scene {
                         let told = error.to_string();
-                        assert!(told.contains("neighbors.skin"), "{}, {}: {told}", subject.case.name, way.name);
+                        assert!(
+                            told.contains("neighbors.skin"),
+                            "{}, {}: {told}",
+                            subject.case.name,
+                            way.name
+                        );
                     }
                 }
                 let named = |name: &str| ways.iter().filter(|way| way.name == name).count();

@@ -143,8 +143,16 @@ mod tests {
             let ((none, alone), (bytes, operations)) = (of(0.0), of(30.0 * particles));
             // At least position and velocity are read and written.
             assert!(none >= 64.0 * particles * 0.5, "{}: {none}", subject.name);
-            assert!(alone > 0.0 && operations > alone + 30.0 * particles, "{}", subject.name);
-            assert!(bytes >= none + 4.0 * 30.0 * particles, "{}: {bytes}", subject.name);
+            assert!(
+                alone > 0.0 && operations > alone + 30.0 * particles,
+                "{}",
+                subject.name
+            );
+            assert!(
+                bytes >= none + 4.0 * 30.0 * particles,
+                "{}: {bytes}",
+                subject.name
+            );
         }
     }
 }

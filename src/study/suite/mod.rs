@@ -138,7 +138,8 @@ pub fn run(settings: &Settings, mut keep: impl FnMut(&Report) -> Result<()>) -> 
     // A file that cannot be written is told before anything takes long.
     keep(&report)?;
     // Of each scene: what its last size took, or why larger ones are left out.
-    let mut known: Vec<std::result::Result<Option<Cost>, String>> = subjects.iter().map(|_| Ok(None)).collect();
+    let mut known: Vec<std::result::Result<Option<Cost>, String>> =
+        subjects.iter().map(|_| Ok(None)).collect();
     for &particles in scale.particles {
         for (subject, known) in subjects.iter().zip(&mut known) {
             let left = scale.limit - start.elapsed().as_secs_f64();
@@ -152,7 +153,11 @@ pub fn run(settings: &Settings, mut keep: impl FnMut(&Report) -> Result<()>) -> 
                     seconds(left.max(0.0))
                 )),
                 Ok(_) => {
-                    bench.tell(&format!("bench: {}, {} particles", subject.name, count(particles.into())));
+                    bench.tell(&format!(
+                        "bench: {}, {} particles",
+                        subject.name,
+                        count(particles.into())
+                    ));
                     match one(&bench, subject, particles, &scale, report.probes.as_ref()) {
                         Ok(measured) => Ok(measured),
                         Err(Error::Interrupted { .. }) => Err("interrupted".to_owned()),
@@ -188,7 +193,9 @@ fn machine(gpu: &Gpu) -> Machine {
         adapter: identity.name,
         kind: identity.kind.to_owned(),
         backend: identity.backend,
-        driver: format!("{} {}", identity.driver, identity.driver_info).trim().to_owned(),
+        driver: format!("{} {}", identity.driver, identity.driver_info)
+            .trim()
+            .to_owned(),
         processor: report::processor(),
         threads: std::thread::available_parallelism().map_or(1, usize::from),
         system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),

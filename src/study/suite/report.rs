@@ -136,14 +136,16 @@ impl Report {
     /// Where there is no such file, and where it is something else.
     pub fn read(path: &Path) -> Result<Self> {
         let help = "give a file that `sliceflow bench --json FILE` wrote";
-        let text =
-            std::fs::read_to_string(path).map_err(|reason| Error::file(path, "read", reason, help))?;
+        let text = std::fs::read_to_string(path).map_err(|reason| Error::file(path, "read", reason, help))?;
         let report: Self =
             serde_json::from_str(&text).map_err(|reason| Error::file(path, "read", reason, help))?;
         match report.format {
             FORMAT => Ok(report),
             other => Err(Error::usage(
-                format!("{}: format {other}, and this version reads {FORMAT}", path.display()),
+                format!(
+                    "{}: format {other}, and this version reads {FORMAT}",
+                    path.display()
+                ),
                 "run `sliceflow bench` again, or compare with the version that wrote it",
             )),
         }
@@ -193,11 +195,15 @@ pub fn processor() -> String {
         let asked = std::process::Command::new("sysctl")
             .args(["-n", "machdep.cpu.brand_string"])
             .output();
-        asked.ok().map(|output| String::from_utf8_lossy(&output.stdout).into_owned())
+        asked
+            .ok()
+            .map(|output| String::from_utf8_lossy(&output.stdout).into_owned())
     } else {
         std::env::var("PROCESSOR_IDENTIFIER").ok()
     };
-    let told = told.map(|name| name.trim().to_owned()).filter(|name| !name.is_empty());
+    let told = told
+        .map(|name| name.trim().to_owned())
+        .filter(|name| !name.is_empty());
     told.unwrap_or_else(|| "unknown processor".to_owned())
 }
 

@@ -67,7 +67,8 @@ const PICTURE: [u32; 2] = [1280, 720];
 const RADIUS: f64 = 0.005;
 
 fn file(name: &str, rest: Value) -> Result<Scene> {
-    let mut file = json!({ "name": name, "time": { "duration": 1, "fps": 60 }, "render": { "size": PICTURE } });
+    let mut file =
+        json!({ "name": name, "time": { "duration": 1, "fps": 60 }, "render": { "size": PICTURE } });
     for (key, value) in rest.as_object().into_iter().flatten() {
         file[key] = value.clone();
     }
@@ -135,8 +136,14 @@ fn grains() -> Value {
 
 /// Sides of a block of about `n` grains, twice as wide as high, in grains: across and high.
 fn block(n: u32, dimensions: i32) -> [f64; 2] {
-    let across = (2.0 * f64::from(n)).powf(1.0 / f64::from(dimensions)).round().max(2.0);
-    [across, (f64::from(n) / across.powi(dimensions - 1)).round().max(1.0)]
+    let across = (2.0 * f64::from(n))
+        .powf(1.0 / f64::from(dimensions))
+        .round()
+        .max(2.0);
+    [
+        across,
+        (f64::from(n) / across.powi(dimensions - 1)).round().max(1.0),
+    ]
 }
 
 fn settled(n: u32) -> Result<Scene> {

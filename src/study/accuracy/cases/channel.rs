@@ -76,13 +76,7 @@ pub fn poiseuille(bench: &Bench, n: u32, changes: &[String]) -> Result<Record> {
     one(bench, POISEUILLE.name, n, changes, channel::poiseuille)
 }
 
-fn one(
-    bench: &Bench,
-    case: &str,
-    n: u32,
-    changes: &[String],
-    truth: fn(f64, f64) -> f64,
-) -> Result<Record> {
+fn one(bench: &Bench, case: &str, n: u32, changes: &[String], truth: fn(f64, f64) -> f64) -> Result<Record> {
     let scene = scene(case, n, changes)?;
     let (mut worst, mut last) = (0.0_f64, 0.0);
     let run = flow(bench, &scene, |flow| {

@@ -184,7 +184,11 @@ pub fn arrival(bench: &Bench, n: u32, changes: &[String]) -> Result<Record> {
     let (run, blow) = felt(bench, &scene, n)?;
     let measured = reference::lobovsky()?.band[1].arrival(ARRIVED);
     let late = blow.middle.arrival(ARRIVED).zip(measured);
-    let figure = Figure::new(ARRIVAL, late.map(|(ours, theirs)| 100.0 * (ours / theirs - 1.0)), "%");
+    let figure = Figure::new(
+        ARRIVAL,
+        late.map(|(ours, theirs)| 100.0 * (ours / theirs - 1.0)),
+        "%",
+    );
     Ok(record(bench, CASE.name, &scene, n, run, vec![figure]))
 }
 

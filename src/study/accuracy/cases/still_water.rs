@@ -40,7 +40,17 @@ const METHODS: [&[&str]; 3] = [
 fn all_methods(bench: &Bench, size: Size, n: u32) -> Result<Vec<Record>> {
     METHODS
         .iter()
-        .map(|changes| one(bench, size, n, &changes.iter().map(|&change| change.to_owned()).collect::<Vec<_>>()))
+        .map(|changes| {
+            one(
+                bench,
+                size,
+                n,
+                &changes
+                    .iter()
+                    .map(|&change| change.to_owned())
+                    .collect::<Vec<_>>(),
+            )
+        })
         .collect()
 }
 
