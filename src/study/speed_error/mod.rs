@@ -135,7 +135,7 @@ fn ladder(page: &mut Page, bench: &Bench, shared: &mut Shared, index: usize) -> 
         ));
         let rung = match first_run(bench, subject, &way) {
             Err(error @ Error::Interrupted { .. }) => return Err(error),
-            Err(error) => Rung::failed(subject.case.name, &way, first_line(&error)),
+            Err(error) => Rung::failed(subject.case.name, &way, why(&error)),
             Ok(rung) => rung,
         };
         bench.check()?;
@@ -184,6 +184,16 @@ fn ladder(page: &mut Page, bench: &Bench, shared: &mut Shared, index: usize) -> 
     write_file(&shared.folder.join("achieved.json"), &json)?;
     shared.ladders.push(ladder);
     Ok(())
+}
+
+/// What an error says, in one line; of a scene, its first problem.
+fn why(error: &Error) -> String {
+    match error {
+        Error::Scene { problems, .. } => problems.first().map_or_else(String::new, |problem| {
+            format!("refused: {} {}", problem.path, problem.what)
+        }),
+        other => first_line(other),
+    }
 }
 
 /// Seconds of a run, judged by the same way at the nearest lower resolution: steps become shorter as particles become

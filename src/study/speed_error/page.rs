@@ -128,6 +128,7 @@ fn peers(page: &mut Page, ladder: &Ladder) {
                     "particles",
                     "steps",
                     "wall s per simulated s",
+                    "runs",
                     "error, %",
                 ]);
                 for told in all {
@@ -138,6 +139,7 @@ fn peers(page: &mut Page, ladder: &Ladder) {
                         Cell::count(told.particles.into()),
                         Cell::count(told.steps),
                         Cell::number(told.wall / told.simulated),
+                        Cell::count(told.runs.into()),
                         Cell::maybe(told.error),
                     ]);
                 }
@@ -207,7 +209,7 @@ fn diagram(ladder: &Ladder, adapter: &str) -> Option<Plot> {
     Some(plot)
 }
 
-/// A series for each method, whose points are medians of runs of one resolution.
+/// A series for each method.
 fn with_peer(mut plot: Plot, program: &str, all: &[Told], label: fn(u32) -> String) -> Plot {
     let mut methods: Vec<&str> = all.iter().map(|told| told.method.as_str()).collect();
     methods.dedup();

@@ -1,13 +1,16 @@
 //! Other programs beside ours, on the same machine and in the same run: `assets/peers/` has a script for each, which a
 //! Python that has the program runs.
 
+use std::fs::File;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
-use crate::output::write_file;
+use crate::gpu::timing::median;
+use crate::output::{interrupt, write_file};
 use crate::study::accuracy::cases::martin_moyce;
 use crate::study::accuracy::series::Series;
 
@@ -54,6 +57,13 @@ pub struct Told {
     /// Time over √(a/g) and place of the front over a, where the case judges that.
     #[serde(default, skip_serializing)]
     pub front: Vec<(f64, f64)>,
+    /// How many runs `wall` is the median of.
+    #[serde(skip, default = "once")]
+    pub runs: u32,
+}
+
+fn once() -> u32 {
+    1
 }
 
 /// What came of a peer in a case.
@@ -84,7 +94,12 @@ pub fn check(interpreters: &[PathBuf]) -> Result<()> {
     Ok(())
 }
 
-/// Runs a peer's case at some resolutions, so many times each, with the first interpreter that has the program.
+/// Runs a peer's case at some resolutions, so many times each, with the first interpreter that has the program. What it
+/// has told until it is stopped for taking too long, or by Ctrl-C, counts.
+///
+/// # Errors
+///
+/// Where an interpreter cannot be started or its script cannot be written.
 pub fn run(
     peer: &Peer,
     interpreters: &[PathBuf],
@@ -93,28 +108,57 @@ pub fn run(
     resolutions: &[u32],
     repeats: u32,
 ) -> Result<Outcome> {
-    let script = folder.join(peer.file);
+    let [script, told, complaint] =
+        ["", ".out", ".err"].map(|end| folder.join(format!("{}{end}", peer.file)));
     let mut why = "no --peers was given".to_owned();
     for python in interpreters {
         write_file(&script, peer.script.as_bytes())?;
         let mut command = Command::new(python);
         command.arg(&script).arg(case).arg(repeats.to_string());
-        let output = command.args(resolutions.iter().map(u32::to_string)).output();
-        let output =
-            output.map_err(|reason| Error::file(python, "start", reason, "name another with --peers"))?;
-        // Scripts are the program's own, so none stays.
-        let _ = std::fs::remove_file(&script);
-        match read(&String::from_utf8_lossy(&output.stdout)) {
-            Ok(told) if output.status.success() && !told.is_empty() => return judged(told).map(Outcome::Ran),
-            Err(told) => why = told,
+        command.args(resolutions.iter().map(u32::to_string));
+        let ended = wait(&mut command, &told, &complaint)
+            .map_err(|reason| Error::file(python, "run", reason, "name another with --peers"));
+        let [said, complained] =
+            [&told, &complaint].map(|path| std::fs::read_to_string(path).unwrap_or_default());
+        for file in [&script, &told, &complaint] {
+            // They are the study's own, so none stays; one that does does no harm.
+            let _ = std::fs::remove_file(file);
+        }
+        let ended = ended?;
+        match read(&said) {
+            Ok(all) if !all.is_empty() => return judged(medians(all)).map(Outcome::Ran),
+            Err(instead) => why = instead,
             Ok(_) => {
-                let complaint = String::from_utf8_lossy(&output.stderr);
-                let last = complaint.lines().last().unwrap_or("it said nothing").to_owned();
-                why = format!("its script ended with {}: {last}", output.status);
+                let last = complained.lines().last().unwrap_or("it said nothing");
+                why = format!("its script {ended}: {last}");
             }
         }
     }
     Ok(Outcome::Missing(why))
+}
+
+/// Longest that a script may take, s.
+const LONGEST: u64 = 300;
+
+/// Runs a command whose outputs go to files; says how it ended.
+fn wait(command: &mut Command, told: &Path, complaint: &Path) -> std::io::Result<String> {
+    let mut child = command
+        .stdin(Stdio::null())
+        .stdout(File::create(told)?)
+        .stderr(File::create(complaint)?)
+        .spawn()?;
+    let start = Instant::now();
+    loop {
+        if let Some(status) = child.try_wait()? {
+            return Ok(format!("ended with {status}"));
+        }
+        if interrupt::asked() || start.elapsed().as_secs() >= LONGEST {
+            child.kill()?;
+            child.wait()?;
+            return Ok(format!("was stopped after {LONGEST} s"));
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    }
 }
 
 /// The runs among a script's lines; what it says instead. Programs print lines of their own.
@@ -129,6 +173,26 @@ fn read(text: &str) -> std::result::Result<Vec<Told>, String> {
         Some(why) if all.is_empty() => Err(why.to_owned()),
         _ => Ok(all),
     }
+}
+
+/// Runs of the same method and resolution as one.
+fn medians(all: Vec<Told>) -> Vec<Told> {
+    let mut groups: Vec<Vec<Told>> = Vec::new();
+    for told in all {
+        let same = |group: &&mut Vec<Told>| {
+            (&group[0].method, group[0].resolution) == (&told.method, told.resolution)
+        };
+        match groups.iter_mut().find(same) {
+            Some(group) => group.push(told),
+            None => groups.push(vec![told]),
+        }
+    }
+    let middle = |group: Vec<Told>| Told {
+        wall: median(group.iter().map(|told| told.wall).collect()),
+        runs: group.len() as u32,
+        ..group.into_iter().next().expect("a group has one")
+    };
+    groups.into_iter().map(middle).collect()
 }
 
 /// Fronts are judged as ours are.
@@ -148,6 +212,12 @@ mod tests {
         let line = r#"POINT {"program":"P 1","method":"DFSPH","resolution":20,"particles":400,"steps":10,"simulated":0.3,"wall":1.5,"error":2.5}"#;
         let all = read(&format!("hello\n{line}\nbye\n")).unwrap();
         assert_eq!((all.len(), all[0].resolution, all[0].error), (1, 20, Some(2.5)));
+        let slower = Told {
+            wall: 3.5,
+            ..all[0].clone()
+        };
+        let middle = medians(vec![all[0].clone(), slower]);
+        assert_eq!((middle.len(), middle[0].runs, middle[0].wall), (1, 2, 2.5));
         assert_eq!(
             read("MISSING no module pysph\n"),
             Err("no module pysph".to_owned())
@@ -174,6 +244,7 @@ mod tests {
             wall: 1.0,
             error: None,
             front,
+            runs: 1,
         };
         let error = judged(vec![told]).unwrap()[0].error.unwrap();
         assert!(error < 0.2, "{error}");

@@ -191,6 +191,7 @@ fn same(a: &Scene, b: &Scene) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::Error;
 
     #[test]
     fn every_rung_of_every_size_is_a_scene() {
@@ -200,15 +201,15 @@ mod tests {
                 assert!(ways.len() >= 4);
                 for way in &ways {
                     let scene = (subject.scene)(way.resolution, &way.set);
-                    // Periodic sides need lists.
-                    if let Err(error) = scene {
-                        let told = error.to_string();
-                        assert!(
-                            told.contains("neighbors.skin"),
-                            "{}, {}: {told}",
-                            subject.case.name,
-                            way.name
-                        );
+                    // What a scene refuses stands on the page with the reason; both solvers as they are run.
+                    let is_plain = ["wcsph", "dfsph"].contains(&way.name.as_str());
+                    match scene {
+                        Err(Error::Scene { .. }) if !is_plain => {}
+                        other => {
+                            drop(other.unwrap_or_else(|error| {
+                                panic!("{}, {}: {error}", subject.case.name, way.name)
+                            }))
+                        }
                     }
                 }
                 let named = |name: &str| ways.iter().filter(|way| way.name == name).count();
