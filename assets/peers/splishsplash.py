@@ -2,8 +2,8 @@
 
 usage: splishsplash.py martin_moyce REPEATS RESOLUTION...      needs: pip install pysplishsplash
 
-Prints a line `POINT {...}` for each run: wall seconds of the steps alone, and where the front was when. 2D, walls of volume
-maps (Bender 2019). DFSPH stops at the errors of the scenes that ship with it (0.05 % and 0.1 %) and chooses its steps; WCSPH
+Prints a line `POINT {...}` for each run: wall seconds of the steps alone, and where the front was when. 2D, walls of
+particles (Akinci 2012). DFSPH stops at the errors of the scenes that ship with it (0.05 % and 0.1 %) and chooses its steps; WCSPH
 has Sliceflow's speed of sound, ten times the fastest expected speed, and steps by a Courant number of 0.4.
 """
 import json
@@ -35,7 +35,7 @@ def scene(method, n, models):
             "cflMethod": 0 if fixed else 1,
             "cflFactor": 1,
             "cflMaxTimeStepSize": 0.005,
-            "boundaryHandlingMethod": 2,
+            "boundaryHandlingMethod": 0,
             "DFSPH": {
                 "minIterations": 2,
                 "maxIterations": 100,
@@ -52,8 +52,9 @@ def scene(method, n, models):
         "RigidBodies": [
             {
                 "geometryFile": os.path.join(models, "UnitBox.obj"),
+                # Walls are one layer of particles, a diameter from the water's.
                 "translation": [WIDTH / 2, HEIGHT / 2, 0],
-                "scale": [WIDTH, HEIGHT, 2 * A],
+                "scale": [WIDTH + 2 * radius, HEIGHT + 2 * radius, 2 * A],
                 "isDynamic": False,
                 "isWall": True,
                 "mapInvert": True,

@@ -212,6 +212,7 @@ fn diagram(ladder: &Ladder, adapter: &str) -> Option<Plot> {
 /// A series for each method.
 fn with_peer(mut plot: Plot, program: &str, all: &[Told], label: fn(u32) -> String) -> Plot {
     let mut methods: Vec<&str> = all.iter().map(|told| told.method.as_str()).collect();
+    methods.sort_unstable();
     methods.dedup();
     for method in methods {
         let runs: Vec<_> = all

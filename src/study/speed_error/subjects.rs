@@ -133,8 +133,8 @@ const DFSPH: [(&str, &[&str]); 6] = [
     ("skin 0.3", &["neighbors.skin=0.3"]),
 ];
 
-/// All rungs, the most telling ones first: both solvers at every resolution, then what else can be chosen, at the middle
-/// one. What would change nothing is left out.
+/// All rungs, the most telling ones first: both solvers up to the middle resolution, then what else can be chosen there,
+/// then finer ones, which take longest. What would change nothing is left out.
 pub fn ways(subject: &Subject, size: Size) -> Result<Vec<Way>> {
     let resolutions = (subject.resolutions)(size);
     let middle = resolutions[resolutions.len() / 2];
@@ -180,6 +180,8 @@ pub fn ways(subject: &Subject, size: Size) -> Result<Vec<Way>> {
             resolution: middle,
         });
     }
+    // A stable sort: all else keeps its order.
+    ways.sort_by_key(|way| way.resolution > middle);
     Ok(ways)
 }
 
