@@ -29,18 +29,20 @@
 //!   smoothing kernels (`src/physics/kernels.rs`). Buffers and shader modules that fields are made into
 //!   (`src/physics/fields.rs`). Steps whose length the device chooses (`src/physics/pace.rs`).
 //! - `src/render/`: pictures from the simulation's own buffers: splats, colliders, slices, the pool's heatmap, legends.
-//! - `src/plan/`: scene + limits → every buffer and pass, with the reason for each. Needs no GPU.
+//! - `src/plan/`: scene + limits → every buffer and pass, with the reason for each. Needs no GPU. What is good enough for an
+//!   error, from what was measured (`src/plan/achieved.rs`).
 //! - `src/simulation/`: executes a plan: steps, frames, what comes back. Grids that need more room get it
 //!   (`src/simulation/growth.rs`); steps with lists are recorded in rounds (`src/simulation/rounds.rs`).
 //! - `src/output/`: sinks, each fed by bounded threads, and the run that drives them (`src/output/drive.rs`); its
 //!   checkpoints, and how it goes on from them (`src/output/resume.rs`); recordings for the Rerun viewer
 //!   (`src/output/rerun.rs`).
 //! - `src/study/`: what the papers measured, measured again, a page each; errors against theory and experiment, beside
-//!   what they cost (`src/study/accuracy/`); which steps and hard cases hold (`src/study/stability/`).
+//!   what they cost (`src/study/accuracy/`); what each choice costs and gains (`src/study/speed_error/`); which steps and
+//!   hard cases hold (`src/study/stability/`). The benchmark that machines are compared by (`src/study/suite/`).
 //! - `src/cli/`: one file a command.
 //!
 //! `shaders/` mirrors this: `shaders/common/`, `shaders/cells/` (addressing), `shaders/storage/`, `shaders/physics/`,
-//! `shaders/render/`.
+//! `shaders/render/`; `shaders/probes/` measure what an adapter can do at best.
 //!
 //! # Cargo features
 //!
@@ -75,6 +77,8 @@
 //! - a color map: one row in `src/scene/color_maps.rs`;
 //! - a study: one row in `src/study/mod.rs`, whose parts (`src/study/parts.rs`) run alone too;
 //! - a case with a known truth: one file and one row in `src/study/accuracy/cases/`, its data in `assets/reference/`;
+//! - a scene of `sliceflow bench`: one row in `src/study/suite/scenes.rs`;
+//! - another program beside ours: a script in `assets/peers/` and its row in `src/study/speed_error/peers.rs`;
 //! - a page of the guide: one file in `assets/guide/src/` and one line in its summary; `tests/guide.rs` holds commands,
 //!   links and scenes there to the code, and makes the pages of keys.
 

@@ -74,6 +74,7 @@ fn help_has_examples() {
         "import",
         "new",
         "study",
+        "bench",
         "completions",
     ] {
         let help = output(&[command, "--help"]);

@@ -68,6 +68,7 @@ fn what_a_build_lacks_is_refused() {
     for (args, what) in [
         (&["surface", "out/run", "--cube-size", "1"][..], "surfaces"),
         (&["study", "accuracy", "--case", "collision"], "studies"),
+        (&["bench", "--quick"], "benchmarks"),
         (&["run", "column_2d", "--rerun", "out/run.rrd"], "Rerun"),
     ] {
         let mut command = assert_cmd::cargo_bin_cmd!("sliceflow");

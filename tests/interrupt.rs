@@ -160,3 +160,30 @@ fn a_study_keeps_the_parts_that_were_finished() {
     let missing = json["missing"].as_array().unwrap();
     assert!(missing.contains(&"resizing".into()) && !missing.contains(&"table_1".into()));
 }
+
+#[test]
+fn a_benchmark_keeps_what_was_measured() {
+    let place = Place::new();
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("sliceflow"));
+    command
+        .current_dir(place.path(""))
+        .args(["bench", "--size", "tiny", "--json", "bench.json"]);
+    let mut run = start(&mut command);
+    let file = place.path("bench.json");
+    let runs = || -> usize {
+        let json: serde_json::Value =
+            serde_json::from_slice(&std::fs::read(&file).unwrap_or_default()).unwrap_or_default();
+        json["runs"].as_array().map_or(0, Vec::len)
+    };
+    let patience = Instant::now();
+    while runs() == 0 && run.try_wait().unwrap().is_none() {
+        assert!(patience.elapsed() < PATIENCE);
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let told = interrupt(run);
+    assert!(told.contains("interrupted; "), "{told}");
+    let json: serde_json::Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
+    assert_eq!(json["interrupted"], true);
+    let left_out = json["left_out"].as_array().unwrap().len();
+    assert!(runs() >= 1 && left_out >= 1 && runs() + left_out == 7, "{json}");
+}

@@ -361,3 +361,72 @@ fn stability_has_a_page_with_the_same_figures_as_its_json() {
         Some(fails("rests") + fails("hard"))
     );
 }
+
+#[test]
+fn speed_is_weighed_against_error() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (page, json) = run_cases("speed-error", &["poiseuille", "still_water"], folder.path());
+    let mut tables = json.clone();
+    tables.as_object_mut().expect("an object").remove("rungs");
+    check(folder.path(), &page, &tables, 4);
+    let rungs = json["rungs"].as_array().expect("rungs");
+    for solver in ["wcsph", "dfsph"] {
+        let found = rungs.iter().filter(|rung| rung["name"] == solver);
+        assert_eq!(found.count(), 2, "{solver}: {rungs:?}");
+    }
+    // No row of the front is beaten by another in time and error.
+    for case in ["still_water", "poiseuille"] {
+        let rows = json[case].as_array().expect("rows");
+        let value = |row: &Value, key: &str| row[key].as_f64();
+        let (time, error) = ("wall s per simulated s", "error, %");
+        let front: Vec<&Value> = rows.iter().filter(|row| row["front"] == "yes").collect();
+        assert!(!front.is_empty(), "{rows:?}");
+        for row in rows.iter().filter(|row| row["remark"].is_null()) {
+            for best in &front {
+                let beaten = value(row, time) < value(best, time) && value(row, error) < value(best, error);
+                assert!(!beaten, "{row} beats {best}");
+            }
+        }
+        assert!(folder.path().join(format!("speed-error_{case}.svg")).exists());
+    }
+    assert!(!page.contains("SPlisHSPlasH was not measured"), "{page}");
+
+    // `plan` takes what was measured.
+    let results = folder.path().join("achieved.json");
+    let achieved: Value =
+        serde_json::from_str(&std::fs::read_to_string(&results).expect("results")).expect("JSON");
+    let worst = achieved["rungs"].as_array().expect("rungs").iter();
+    let worst = worst
+        .filter(|rung| rung["case"] == "still_water")
+        .filter_map(|rung| rung["error"].as_f64());
+    let asked = format!("{}%", worst.fold(0.0, f64::max) + 1.0);
+    let plan = |error: &str| {
+        let mut command = Command::cargo_bin("sliceflow").expect("the program is built");
+        command
+            .args(["plan", "still_water", "--error", error, "--json", "--results"])
+            .arg(&results);
+        command
+    };
+    let assert = plan(&asked).assert().success();
+    let proposal: Value = serde_json::from_slice(&assert.get_output().stdout).expect("JSON");
+    assert_eq!(proposal["basis"]["like"], "still_water");
+    assert!(proposal["proposal"]["step_s"].as_f64().expect("a step") > 0.0);
+    let refused = plan("1e-9%").assert().code(2);
+    let told = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(told.contains("--error"), "{told}");
+}
+
+#[test]
+fn only_one_study_runs_other_programs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let refused = |paper: &str, python: &str| {
+        let output = study(paper, folder.path())
+            .args(["--peers", python])
+            .output()
+            .expect("it starts");
+        assert_eq!(output.status.code(), Some(2));
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    assert!(refused("green", "python3").contains("speed-error"));
+    assert!(refused("speed-error", "/no/such/python").contains("/no/such/python"));
+}

@@ -2,6 +2,8 @@
 
 #[cfg(not(all(feature = "study", feature = "surface")))]
 mod absent;
+#[cfg(feature = "study")]
+mod bench;
 mod checkpoint_args;
 mod completions;
 mod device_args;
@@ -14,6 +16,7 @@ mod neighbors;
 mod new;
 mod particle_args;
 mod plan;
+mod plan_error;
 mod plan_measure;
 mod quiet_args;
 mod render;
@@ -32,10 +35,10 @@ mod study;
 mod surface;
 mod table;
 
-#[cfg(not(feature = "study"))]
-use absent::study;
 #[cfg(not(feature = "surface"))]
 use absent::surface;
+#[cfg(not(feature = "study"))]
+use absent::{bench, study};
 use clap::{CommandFactory as _, Parser, Subcommand};
 
 use crate::error::Result;
@@ -73,6 +76,7 @@ enum Command {
     Schema(schema::Args),
     Devices(devices::Args),
     Study(study::Args),
+    Bench(bench::Args),
     Completions(completions::Args),
 }
 
@@ -98,6 +102,7 @@ pub fn main() -> Result<()> {
         Command::Schema(args) => schema::main(&args),
         Command::Devices(args) => devices::main(&args),
         Command::Study(args) => study::main(&args),
+        Command::Bench(args) => bench::main(&args),
         Command::Completions(args) => completions::main(&args, Cli::command()),
     }
 }

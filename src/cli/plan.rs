@@ -5,6 +5,7 @@ use std::fmt;
 use serde_json::{Value, json};
 
 use super::device_args::DeviceArgs;
+use super::plan_error::ErrorArgs;
 use super::plan_measure::Estimate;
 use super::run_args::RunArgs;
 use super::table::Align::{Left, Right};
@@ -29,8 +30,10 @@ pub struct Args {
     run: RunArgs,
     #[command(flatten)]
     device: DeviceArgs,
+    #[command(flatten)]
+    error: ErrorArgs,
     /// Estimates the run's time from some seconds of it, without writing anything
-    #[arg(long)]
+    #[arg(long, conflicts_with = "error")]
     measure: bool,
     /// Prints JSON
     #[arg(long)]
@@ -42,10 +45,17 @@ Examples:
   sliceflow plan green_cube
   sliceflow plan harada_figure_2 --grid sliced-pool --view both
   sliceflow plan my_scene.json --measure
+  sliceflow plan my_dam.json --error 2%
   sliceflow plan my_scene.json --json | jq '.plan.buffers[].name'";
 
 pub fn main(args: &Args) -> Result<()> {
     let scene = args.run.load()?;
+    if let Some(proposal) = args.error.proposal(&scene)? {
+        return match args.json {
+            true => stdout::print_json(&proposal.json()),
+            false => stdout::print(&proposal.to_string()),
+        };
+    }
     let adapter = args.device.adapter();
     let outputs = args.run.outputs()?;
     let mut report = Report::new(&scene, &outputs, &adapter)?;

@@ -29,6 +29,9 @@ pub struct Args {
     /// `accuracy`: resolutions in place of each case's own (particles across, steps in a contact)
     #[arg(long = "resolution", value_name = "N,…", value_delimiter = ',')]
     resolutions: Vec<u32>,
+    /// `speed-error`: a Python that has pysplishsplash or pysph, to run these beside; may be given again
+    #[arg(long, value_name = "PYTHON")]
+    peers: Vec<PathBuf>,
     /// `small` takes minutes on two cores; `full` has the papers' own sizes and wants a graphics card
     #[arg(long, value_name = "SCALE", default_value = "small")]
     scale: Scale,
@@ -49,6 +52,7 @@ Examples:
   sliceflow study harada --case table_1
   sliceflow study green --scale full --adapter 0
   sliceflow study stability
+  sliceflow study speed-error --case still_water
   sliceflow study harada --out out/today --force
   sliceflow study accuracy --case collision --resolution 50,200,1000";
 
@@ -84,7 +88,14 @@ pub fn main(args: &Args) -> Result<()> {
             "leave out --resolution, or study `accuracy`",
         ));
     }
+    if !args.peers.is_empty() && study.name != "speed-error" {
+        return Err(Error::usage(
+            format!("`study {}` runs no other programs", study.name),
+            "leave out --peers, or study `speed-error`",
+        ));
+    }
     let page = (study.run)(&Settings {
+        peers: args.peers.clone(),
         cases: args.cases.clone(),
         resolutions: args.resolutions.clone(),
         size: match args.scale {

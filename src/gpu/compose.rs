@@ -282,3 +282,18 @@ impl Composed {
         }
     }
 }
+
+/// A module of this text alone.
+#[cfg(test)]
+pub(super) fn of_text(text: &str) -> Composed {
+    let mut composed = Composed {
+        path: "test.wgsl".into(),
+        text: String::new(),
+        places: Vec::new(),
+        flags: BTreeSet::new(),
+    };
+    for (index, line) in text.lines().enumerate() {
+        composed.push(line, "test.wgsl", index + 1);
+    }
+    composed
+}

@@ -17,6 +17,7 @@ pub mod readback;
 pub mod reflect;
 pub mod shared;
 pub mod timing;
+pub mod work;
 
 pub use buffers::Buffers;
 pub use compose::Variant;
@@ -26,3 +27,4 @@ pub use limits::{Demand, Limits};
 pub use parts::{BufferPlan, Contents, DISPATCHES, Items, PassPlan, Repeat};
 pub use pass::{Groups, Kernel, Pass};
 pub use reflect::Shader;
+pub use work::Work;

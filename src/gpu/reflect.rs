@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 pub struct Shader {
     pub path: String,
     pub module: naga::Module,
-    info: ModuleInfo,
+    pub(super) info: ModuleInfo,
 }
 
 /// One resource that an entry point uses.
@@ -98,7 +98,7 @@ impl Shader {
         })
     }
 
-    fn entry_index(&self, entry: &str) -> Result<usize> {
+    pub(super) fn entry_index(&self, entry: &str) -> Result<usize> {
         let found = self.module.entry_points.iter().position(|e| e.name == entry);
         found.ok_or_else(|| Error::Shader {
             message: format!("shaders/{} has no entry point `{entry}`", self.path),

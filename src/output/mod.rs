@@ -45,6 +45,7 @@ mod workers;
 
 use std::sync::Arc;
 
+pub use clock::now;
 pub use disk::write as write_file;
 pub use estimate::{checkpoints as checkpoint_estimate, disk_bytes};
 pub use frame_range::FrameRange;

@@ -21,8 +21,8 @@ use crate::scene::{self, Matter, Scene};
 /// Sums that the errors of all particles are added to.
 const ERROR_SUMS: u32 = 256;
 /// Numbers of the loops.
-const DENSITY: u32 = 0;
-const DIVERGENCE: u32 = 1;
+pub const DENSITY: u32 = 0;
+pub const DIVERGENCE: u32 = 1;
 /// Relaxation of Jacobi's iteration. With the momentum below, dam breaks in 3D blow up at 0.4.
 const RELAXATION: f32 = 0.3;
 /// Share of an iteration's step that the next one goes on with. Dam break in 2D, 1,250 particles, mean iterations of a step:

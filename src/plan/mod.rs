@@ -2,6 +2,7 @@
 //!
 //! A plan is made without a GPU; [`crate::simulation::Simulation`] executes it to the letter.
 
+pub mod achieved;
 mod fit;
 
 use std::collections::BTreeSet;

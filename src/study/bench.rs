@@ -36,8 +36,13 @@ pub struct Bench {
 impl Bench {
     /// From now on the first Ctrl-C ends the study with what was finished.
     pub fn open(settings: &Settings) -> Result<Self> {
+        Self::of(&settings.adapter, settings.quiet)
+    }
+
+    /// The same of an adapter.
+    pub fn of(adapter: &AdapterChoice, quiet: bool) -> Result<Self> {
         let now: Arc<Mutex<String>> = Arc::default();
-        let (under_way, quiet) = (now.clone(), settings.quiet);
+        let under_way = now.clone();
         interrupt::listen(move || {
             let now = under_way.lock().unwrap_or_else(PoisonError::into_inner);
             if !quiet {
@@ -47,11 +52,11 @@ impl Bench {
                 ));
             }
         });
-        let gpu = Gpu::open(&settings.adapter, false)?;
+        let gpu = Gpu::open(adapter, false)?;
         Ok(Self {
             quiet,
             now,
-            choice: settings.adapter.clone(),
+            choice: adapter.clone(),
             limits: gpu.limits,
             identity: Identity::of(&gpu.adapter),
             software: gpu.is_software(),
@@ -241,6 +246,16 @@ fn tell(text: &str) {
 /// What an error says first, for a table.
 pub fn first_line(error: &crate::error::Error) -> String {
     error.to_string().lines().next().unwrap_or_default().to_owned()
+}
+
+/// Pairs of a frame that brings the column `contacts`, each from both sides: particles in reach of each other, grains and
+/// walls that touch.
+pub fn pairs(frame: &Frame) -> u64 {
+    let column = frame.columns.iter().find(|column| column.name == "contacts");
+    match column.map(|column| &column.values) {
+        Some(Values::Unsigned(counts)) => counts.iter().map(|&count| u64::from(count)).sum(),
+        _ => 0,
+    }
 }
 
 /// A frame's particles in local coordinates.

@@ -69,16 +69,17 @@ pub struct Sized {
 impl Bench {
     /// Times of all entries, round by round.
     pub fn measure(&self, entries: &[Entry], effort: Effort) -> Vec<Outcome> {
+        let begin = |entry: &Entry| Measured::new(self, &entry.scene, effort.steps);
         let mut runs: Vec<_> = entries
             .iter()
-            .map(|entry| Measured::new(self, entry, effort).map_err(|error| first_line(&error)))
+            .map(|entry| begin(entry).map_err(|error| first_line(&error)))
             .collect();
         for round in 0..effort.rounds as usize {
             let forwards = round % 2 == 0;
             for turn in 0..runs.len() {
                 let index = if forwards { turn } else { runs.len() - 1 - turn };
                 if let Ok(run) = &mut runs[index]
-                    && let Err(error) = run.round(effort)
+                    && let Err(error) = run.round(1).and_then(|()| run.time_passes())
                 {
                     runs[index] = Err(first_line(&error));
                 }
@@ -94,19 +95,8 @@ impl Bench {
         turns: u32,
         steps: u32,
     ) -> Vec<std::result::Result<Sized, String>> {
-        let effort = Effort {
-            rounds: turns,
-            steps: 1,
-        };
-        let begin = |policy: &Policy| {
-            let entry = Entry {
-                name: policy.name.to_owned(),
-                scene: policy.scene.clone(),
-            };
-            Measured::new(self, &entry, effort)
-        };
-        let mut runs: Vec<Result<(Measured, u32)>> =
-            policies.iter().map(|policy| Ok((begin(policy)?, 0))).collect();
+        let begin = |policy: &Policy| Ok((Measured::new(self, &policy.scene, 1)?, 0));
+        let mut runs: Vec<Result<(Measured, u32)>> = policies.iter().map(begin).collect();
         for _ in 0..turns {
             for (run, policy) in runs.iter_mut().zip(policies) {
                 if let Ok((measured, growths)) = run
@@ -150,17 +140,24 @@ impl Bench {
     }
 }
 
-/// One entry's simulation and what it has shown so far.
-struct Measured {
-    simulation: Simulation,
+/// One scene's simulation and what it has shown so far.
+pub struct Measured {
+    pub simulation: Simulation,
+    pub plan: Plan,
     search: Vec<String>,
-    step_ms: Vec<f64>,
+    /// Milliseconds of a step, round by round.
+    pub step_ms: Vec<f64>,
     passes: Vec<(String, Vec<f64>)>,
+    /// The frame that came last.
+    pub last: Frame,
+    /// Steps of the last round that searched.
+    pub searches: u32,
 }
 
 impl Measured {
-    fn new(bench: &Bench, entry: &Entry, effort: Effort) -> Result<Self> {
-        let scene = entry.scene.with_steps_per_frame(effort.steps);
+    /// With frames of so many steps, of adaptive ones about as many; two of them are past, so that shaders are compiled.
+    pub fn new(bench: &Bench, scene: &Scene, steps: u32) -> Result<Self> {
+        let scene = scene.with_steps_per_frame(steps);
         let gpu = bench.gpu()?;
         let plan = Plan::new(&scene, &gpu.limits, &Wanted::default())?.with_its_lists()?;
         let is_search = |shader: &str| shader.starts_with("cells/") || shader.starts_with("storage/");
@@ -172,36 +169,57 @@ impl Measured {
             .collect();
         let mut measured = Self {
             simulation: bench.with_plan(gpu, &scene, &plan)?,
+            plan,
             search,
             step_ms: Vec::new(),
             passes: Vec::new(),
+            last: Frame::default(),
+            searches: 0,
         };
         // The first state, and the steps that compile the shaders.
-        measured.frame()?;
-        measured.frame()?;
+        measured.frames(1)?;
+        measured.frames(1)?;
         Ok(measured)
     }
 
-    /// Simulates a frame and waits for it.
-    fn frame(&mut self) -> Result<Option<Frame>> {
-        let mut last = self.simulation.next_frame()?;
-        while let Some(frame) = self.simulation.finish_frame()? {
-            last = Some(frame);
+    /// Simulates frames and waits for all of them; gives the number of steps, and how often a grid grew.
+    fn frames(&mut self, count: u32) -> Result<(u64, u32)> {
+        let before = self.last.steps;
+        let mut growths = 0;
+        self.searches = 0;
+        let mut take = |frame: Frame| {
+            growths += frame.growths;
+            self.searches += frame.searches;
+            self.last = frame;
+        };
+        for _ in 0..count {
+            if let Some(frame) = self.simulation.next_frame()? {
+                take(frame);
+            }
         }
-        Ok(last)
+        while let Some(frame) = self.simulation.finish_frame()? {
+            take(frame);
+        }
+        Ok((self.last.steps - before, growths))
     }
 
-    fn round(&mut self, effort: Effort) -> Result<()> {
+    /// Simulates frames; the round's time of a step is kept.
+    pub fn round(&mut self, frames: u32) -> Result<()> {
         let start = Instant::now();
-        self.frame()?;
+        let (steps, _) = self.frames(frames)?;
         self.step_ms
-            .push(start.elapsed().as_secs_f64() * 1e3 / f64::from(effort.steps));
+            .push(start.elapsed().as_secs_f64() * 1e3 / steps.max(1) as f64);
+        Ok(())
+    }
+
+    /// Simulates a frame whose passes are timed.
+    pub fn time_passes(&mut self) -> Result<()> {
         self.simulation.set_timings(true);
-        let timed = self.frame()?;
+        self.frames(1)?;
         self.simulation.set_timings(false);
         // A sort runs its passes several times in a step.
         let mut sums: Vec<(String, f64)> = Vec::new();
-        for (label, ms) in timed.into_iter().flat_map(|frame| frame.pass_ms) {
+        for (label, ms) in std::mem::take(&mut self.last.pass_ms) {
             match sums.iter_mut().find(|(known, _)| *known == label) {
                 Some((_, sum)) => *sum += ms,
                 None => sums.push((label, ms)),
@@ -220,8 +238,7 @@ impl Measured {
     fn turn(&mut self, steps: u32, exactly: bool, growths: &mut u32) -> Result<()> {
         let start = Instant::now();
         for _ in 0..steps {
-            let frame = self.frame()?;
-            *growths += frame.map_or(0, |frame| frame.growths);
+            *growths += self.frames(1)?.1;
             if exactly {
                 self.simulation.resize_exactly()?;
             }
@@ -231,7 +248,7 @@ impl Measured {
         Ok(())
     }
 
-    fn times(self) -> Times {
+    pub fn times(self) -> Times {
         let passes: Vec<_> = self
             .passes
             .into_iter()

@@ -11,7 +11,9 @@ mod page;
 mod parts;
 mod rojas;
 mod scenes;
+mod speed_error;
 mod stability;
+pub mod suite;
 
 use std::path::PathBuf;
 
@@ -49,6 +51,12 @@ pub const STUDIES: &[Study] = &[
         run: accuracy::accuracy,
     },
     Study {
+        name: "speed-error",
+        about: "Wall time against error of both solvers, and what each other choice costs",
+        cases: || parts::names(speed_error::PARTS),
+        run: speed_error::speed_error,
+    },
+    Study {
         name: "rojas",
         about: "Rojas 2013: real-time ratio of a dam break",
         cases: || parts::names(rojas::PARTS),
@@ -82,6 +90,8 @@ pub struct Settings {
     pub resolutions: Vec<u32>,
     pub size: Size,
     pub folder: PathBuf,
+    /// Of `speed-error`: Pythons that have other programs, to run those beside.
+    pub peers: Vec<PathBuf>,
     /// Replaces an earlier study.
     pub force: bool,
     pub adapter: AdapterChoice,

@@ -3,6 +3,7 @@
 use super::Case;
 use super::fluid::{flow, record, shipped, spacing};
 use crate::error::Result;
+use crate::scene::Scene;
 use crate::study::Size;
 use crate::study::accuracy::norms::Norms;
 use crate::study::accuracy::published;
@@ -56,12 +57,27 @@ fn both_walls(bench: &Bench, case: &str, n: u32, truth: fn(f64, f64) -> f64) -> 
     let walls = ["particles", "planes"];
     walls
         .into_iter()
-        .map(|walls| one(bench, case, n, walls, truth))
+        .map(|walls| one(bench, case, n, &[format!("domain.walls={walls}")], truth))
         .collect()
 }
 
-fn one(bench: &Bench, case: &str, n: u32, walls: &str, truth: fn(f64, f64) -> f64) -> Result<Record> {
-    let scene = shipped(case, &[spacing(1.0, n), format!("domain.walls={walls}")])?;
+/// A case's scene with other keys changed.
+fn scene(case: &str, n: u32, changes: &[String]) -> Result<Scene> {
+    shipped(case, &[&[spacing(1.0, n)], changes].concat())
+}
+
+/// The scene of [`POISEUILLE`] with other keys changed.
+pub fn poiseuille_scene(n: u32, changes: &[String]) -> Result<Scene> {
+    scene(POISEUILLE.name, n, changes)
+}
+
+/// The record of one run of [`POISEUILLE`].
+pub fn poiseuille(bench: &Bench, n: u32, changes: &[String]) -> Result<Record> {
+    one(bench, POISEUILLE.name, n, changes, channel::poiseuille)
+}
+
+fn one(bench: &Bench, case: &str, n: u32, changes: &[String], truth: fn(f64, f64) -> f64) -> Result<Record> {
+    let scene = scene(case, n, changes)?;
     let (mut worst, mut last) = (0.0_f64, 0.0);
     let run = flow(bench, &scene, |flow| {
         let off = flow.position.iter().zip(&flow.velocity).map(|(p, v)| {

@@ -164,6 +164,34 @@ fn one(bench: &Bench, size: Size, n: u32, changes: &[&str]) -> Result<Record> {
     Ok(record(bench, CASE.name, &scene(1)?, n, run, figures))
 }
 
+/// Name of the figure of [`arrival`].
+pub const ARRIVAL: &str = "arrival beside the measured one";
+
+/// The case's scene up to the water's arrival at the far wall, with other keys changed.
+pub fn arrival_scene(n: u32, changes: &[String]) -> Result<Scene> {
+    let of_case = [
+        spacing(H, n),
+        "time.duration=0.52".to_owned(),
+        "time.fps=1000".to_owned(),
+    ];
+    shipped(CASE.name, &[&of_case, changes].concat())
+}
+
+/// The record of one run up to there, whose figure is how much later water arrives at the middle sensor than in the
+/// experiment, percent.
+pub fn arrival(bench: &Bench, n: u32, changes: &[String]) -> Result<Record> {
+    let scene = arrival_scene(n, changes)?;
+    let (run, blow) = felt(bench, &scene, n)?;
+    let measured = reference::lobovsky()?.band[1].arrival(ARRIVED);
+    let late = blow.middle.arrival(ARRIVED).zip(measured);
+    let figure = Figure::new(
+        ARRIVAL,
+        late.map(|(ours, theirs)| 100.0 * (ours / theirs - 1.0)),
+        "%",
+    );
+    Ok(record(bench, CASE.name, &scene, n, run, vec![figure]))
+}
+
 fn felt(bench: &Bench, scene: &Scene, n: u32) -> Result<(Run, Blow)> {
     let unit = (H / GRAVITY).sqrt();
     let spacing = H / f64::from(n);

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::Case;
 use super::fluid::{flow, record, shipped, spacing};
 use crate::error::Result;
+use crate::scene::Scene;
 use crate::study::Size;
 use crate::study::accuracy::norms::Norms;
 use crate::study::accuracy::record::{Bar, Figure, Record};
@@ -30,7 +31,7 @@ pub const CASE: Case = Case {
     },
     figure: FIGURE,
     published: &[],
-    run: |bench, _, n| Ok(vec![one(bench, n)?]),
+    run: |bench, _, n| Ok(vec![one(bench, n, &[])?]),
 };
 
 const FIGURE: &str = "front, shifted";
@@ -42,8 +43,21 @@ const MOST_SHIFT: f64 = 0.2;
 /// By which the origin of the measured times is uncertain, √(a/g).
 const UNCERTAIN: f64 = 0.15;
 
-fn one(bench: &Bench, n: u32) -> Result<Record> {
-    let scene = shipped(CASE.name, &[spacing(A, n)])?;
+/// The case's scene with other keys changed.
+pub fn scene(n: u32, changes: &[String]) -> Result<Scene> {
+    shipped(CASE.name, &[&[spacing(A, n)], changes].concat())
+}
+
+/// The error of a front, x/a over √(a/g) of time, as the case judges it, percent; none unless it reaches all measured
+/// points.
+pub fn front_error(front: &Series) -> Result<Option<f64>> {
+    let [measured, _] = reference::martin_moyce(1)?;
+    Ok(front.best_fit(&measured, MOST_SHIFT).map(|fit| 100.0 * fit.rms))
+}
+
+/// The record of one run.
+pub fn one(bench: &Bench, n: u32, changes: &[String]) -> Result<Record> {
+    let scene = scene(n, changes)?;
     let spacing = A / f64::from(n);
     let unit = (A / GRAVITY).sqrt();
     let (mut front, mut height) = (Series::default(), Series::default());

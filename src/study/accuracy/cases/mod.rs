@@ -1,18 +1,18 @@
 //! What is measured: a row of the table [`CASES`] for each case.
 
-mod channel;
+pub(in crate::study) mod channel;
 mod collision;
 mod columns;
 mod dem;
 mod fluid;
 mod gas;
 mod lid_cavity;
-mod lobovsky_dam;
-mod martin_moyce;
+pub(in crate::study) mod lobovsky_dam;
+pub(in crate::study) mod martin_moyce;
 mod spheric_2;
-mod still_water;
+pub(in crate::study) mod still_water;
 mod taylor_couette;
-mod taylor_green_2d;
+pub(in crate::study) mod taylor_green_2d;
 mod taylor_green_3d;
 
 use super::published::Published;

@@ -40,8 +40,32 @@ const METHODS: [&[&str]; 3] = [
 fn all_methods(bench: &Bench, size: Size, n: u32) -> Result<Vec<Record>> {
     METHODS
         .iter()
-        .map(|changes| one(bench, size, n, changes))
+        .map(|changes| {
+            one(
+                bench,
+                size,
+                n,
+                &changes
+                    .iter()
+                    .map(|&change| change.to_owned())
+                    .collect::<Vec<_>>(),
+            )
+        })
         .collect()
+}
+
+/// s.
+fn duration(size: Size) -> f64 {
+    match size {
+        Size::Full => 100.0,
+        Size::Tiny | Size::Small => 5.0,
+    }
+}
+
+/// The case's scene with other keys changed.
+pub fn scene(size: Size, n: u32, changes: &[String]) -> Result<Scene> {
+    let of_case = [spacing(1.0, n), format!("time.duration={}", duration(size))];
+    shipped(CASE.name, &[&of_case, changes].concat())
 }
 
 /// Water of depth one before it is compressed by its own weight.
@@ -65,14 +89,10 @@ fn truth(scene: &Scene) -> Option<StillWater> {
     })
 }
 
-fn one(bench: &Bench, size: Size, n: u32, changes: &[&str]) -> Result<Record> {
-    let duration = match size {
-        Size::Full => 100.0,
-        Size::Tiny | Size::Small => 5.0,
-    };
-    let mut overrides = vec![spacing(1.0, n), format!("time.duration={duration}")];
-    overrides.extend(changes.iter().map(|&change| change.to_owned()));
-    let scene = shipped(CASE.name, &overrides)?;
+/// The record of one run.
+pub fn one(bench: &Bench, size: Size, n: u32, changes: &[String]) -> Result<Record> {
+    let duration = duration(size);
+    let scene = scene(size, n, changes)?;
     let truth = truth(&scene);
     let (mut l1, mut largest, mut moments, mut speed) = (0.0, 0.0, 0.0, 0.0_f64);
     let (mut fastest, mut pressure_scale) = (0.0_f64, 1.0);

@@ -3,6 +3,7 @@
 use super::Case;
 use super::fluid::{flow, record, shipped, spacing};
 use crate::error::Result;
+use crate::scene::Scene;
 use crate::study::Size;
 use crate::study::accuracy::norms::relative_l1;
 use crate::study::accuracy::published;
@@ -41,14 +42,18 @@ const PLAIN: [&str; 5] = [
 
 fn both_solvers(bench: &Bench, _: Size, n: u32) -> Result<Vec<Record>> {
     let shifted = one(bench, n, &[])?;
-    let plain = one(bench, n, &PLAIN)?;
+    let plain = one(bench, n, &PLAIN.map(str::to_owned))?;
     Ok(vec![shifted, plain])
 }
 
-fn one(bench: &Bench, n: u32, changes: &[&str]) -> Result<Record> {
-    let mut overrides = vec![spacing(1.0, n)];
-    overrides.extend(changes.iter().map(|&change| change.to_owned()));
-    let scene = shipped(CASE.name, &overrides)?;
+/// The case's scene with other keys changed.
+pub fn scene(n: u32, changes: &[String]) -> Result<Scene> {
+    shipped(CASE.name, &[&[spacing(1.0, n)], changes].concat())
+}
+
+/// The record of one run.
+pub fn one(bench: &Bench, n: u32, changes: &[String]) -> Result<Record> {
+    let scene = scene(n, changes)?;
     let truth = TaylorGreen::unit(100.0);
     let mut errors = Vec::new();
     let (mut decay, mut energy) = (0.0_f64, 0.0_f64);
