@@ -66,6 +66,8 @@
 //! - what another program calls a key or a word of scenes: one row in `src/scene/synonyms.rs`;
 //! - a way to address voxels or to keep particles: one shader file and one row of the table in
 //!   `src/neighbors/addressing.rs` or `src/neighbors/storage.rs`;
+//! - a force on fluids, or what else makes their densities: one shader file in `shaders/physics/fluid/forces/` or
+//!   `shaders/physics/fluid/density/` and one row in `src/physics/formulas.rs`;
 //! - a smoothing kernel: one shader file in `shaders/physics/fluid/kernels/`, one word in `src/scene/model/fluid.rs` and
 //!   its rows in `src/physics/kernels.rs`, which the tests hold to integrals and derivatives;
 //! - what particles have: one row in `src/scene/field.rs`, which is sorted, saved, exported and drawn as it says; a column

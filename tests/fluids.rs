@@ -6,9 +6,10 @@ mod fluid_reference;
 
 use fluid_reference::Reference;
 use glam::{DVec3, Vec3};
+use sliceflow::error::{Error, Result};
 use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
 use sliceflow::plan::Wanted;
-use sliceflow::scene::{Particles, Scene, column};
+use sliceflow::scene::{Particles, Scene, column, library, load};
 use sliceflow::simulation::Simulation;
 use sliceflow::simulation::frame::Values;
 
@@ -55,9 +56,14 @@ fn stirred(dimensions: usize, steps: u32, overrides: &[&str]) -> Scene {
     scene
 }
 
-const SOLVERS: [&[&str]; 13] = [
+const SOLVERS: [&[&str]; 14] = [
     &[],
-    &["time.integrator=velocity_verlet", "fluid.viscosity=5"],
+    &["fluid.viscosity=5"],
+    &[
+        "time.integrator=velocity_verlet",
+        "fluid.viscosity=5",
+        "fluid.viscosity_form=laplacian",
+    ],
     &["fluid.solver=sph", "fluid.viscosity=5"],
     &[
         "fluid.density_from=summation",
@@ -82,12 +88,17 @@ const SOLVERS: [&[&str]; 13] = [
     ],
     &[
         "fluid.viscosity=5",
+        "fluid.viscosity_form=laplacian",
         "fluid.gradient_correction=true",
         "fluid.pressure_force=difference",
         "fluid.shifting=1",
         "fluid.negative_pressure=keep",
     ],
-    &["fluid.viscosity=5", "fluid.gradient_correction=true"],
+    &[
+        "fluid.viscosity=5",
+        "fluid.viscosity_form=laplacian",
+        "fluid.gradient_correction=true",
+    ],
     &[
         "fluid.viscosity=5",
         "fluid.viscosity_form=stress",
@@ -636,4 +647,61 @@ fn a_jet_fills_a_tank() {
         middle < height,
         "half lies above {middle} m, all fills {height} m"
     );
+}
+
+/// Nothing acts on a square that turns in the air: energy and angular momentum stay, its particles stay apart and together.
+#[test]
+fn a_square_that_turns_stays_whole() {
+    let text = library::find("rotating_square").expect("a scene that ships");
+    let overrides = ["fluid.spacing=0.05", "time.duration=1", "time.fps=1"].map(str::to_owned);
+    let scene = load::parse(text, "test.json", &library::folder().unwrap(), &overrides).unwrap();
+    let spacing = 2.0 * scene.radius() as f32;
+    let sums = |position: &[Vec3], velocity: &[Vec3]| {
+        let both = position.iter().zip(velocity);
+        let turn = both.map(|(x, v)| f64::from(x.x * v.y - x.y * v.x)).sum::<f64>();
+        let energy = velocity
+            .iter()
+            .map(|v| f64::from(v.length_squared()))
+            .sum::<f64>();
+        [energy, turn]
+    };
+    let before = sums(&scene.particles.position, &scene.particles.velocity);
+    let found = particles(&scene, 1);
+    let after = sums(&found.position, &found.velocity);
+    for (name, before, after) in [("energy", before[0], after[0]), ("momentum", before[1], after[1])] {
+        let change = after / before - 1.0;
+        assert!(change.abs() < 0.03, "{name} changed by {change}");
+    }
+    for (i, a) in found.position.iter().enumerate() {
+        let others = found.position.iter().enumerate().filter(|(j, _)| i != *j);
+        let nearest = others.map(|(_, b)| a.distance(*b)).fold(f32::MAX, f32::min) / spacing;
+        assert!((0.5..1.5).contains(&nearest), "particle {i}: {nearest} spacings");
+    }
+}
+
+/// A particle that is far faster than sound ends the run with an error that names it, before energies are no number.
+#[test]
+fn what_runs_away_ends_the_run() {
+    let mut scene = common::fluid(2, &["domain.walls=open"]);
+    let sound = scene.fluid().expect("a fluid").sound_speed as f32;
+    for (speed, caught) in [(20.0 * sound, false), (120.0 * sound, true)] {
+        scene.particles.velocity[3] = Vec3::new(0.0, speed, 0.0);
+        let mut simulation = common::simulate(&scene, &Wanted::default());
+        let mut run = || -> Result<()> {
+            for _ in 0..2 {
+                simulation.next_frame()?;
+            }
+            while simulation.finish_frame()?.is_some() {}
+            Ok(())
+        };
+        match run() {
+            Ok(()) => assert!(!caught),
+            Err(Error::Guard(casualty)) => {
+                assert!(caught, "{casualty:?}");
+                assert_eq!(casualty.id, 3);
+                assert!(casualty.what.contains("faster than sound"), "{}", casualty.what);
+            }
+            Err(error) => panic!("{error}"),
+        }
+    }
 }

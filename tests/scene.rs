@@ -780,3 +780,35 @@ fn bodies_come_from_particle_files_and_meshes() {
     assert!((400..600).contains(&filled), "{filled}");
     assert!((2..scene.particles.len()).all(|i| position(i).x > 1.0));
 }
+
+/// Where nothing is beside a particle, the fluid ends.
+#[test]
+fn free_surfaces_are_found() {
+    let folder = library::folder().unwrap();
+    let of = |name: &str, overrides: &[&str]| {
+        let text = library::find(name).unwrap();
+        let overrides: Vec<String> = overrides.iter().map(|&o| o.to_owned()).collect();
+        let scene = load::parse(text, "test.json", &folder, &overrides).unwrap();
+        scene.fluid().unwrap().free_surface
+    };
+    for name in [
+        "taylor_green_2d",
+        "lid_cavity",
+        "poiseuille",
+        "couette",
+        "taylor_couette",
+    ] {
+        assert!(!of(name, &[]), "{name}");
+    }
+    assert!(!of("lid_cavity", &["domain.walls=planes"]));
+    assert!(!of("taylor_green_3d", &["fluid.spacing=0.1"]));
+    for name in [
+        "still_water",
+        "dam_break_2d",
+        "rotating_square",
+        "elliptical_drop",
+    ] {
+        assert!(of(name, &[]), "{name}");
+    }
+    assert!(of("still_water", &["domain.walls=planes"]));
+}

@@ -54,7 +54,11 @@ fn fluid_plans() -> Vec<Plan> {
             "fluid.slip=free_slip",
             "fluid.kernel=wendland_c4",
         ],
-        &["fluid.viscosity=0.1", "fluid.gradient_correction=true"],
+        &[
+            "fluid.viscosity=0.1",
+            "fluid.viscosity_form=laplacian",
+            "fluid.gradient_correction=true",
+        ],
         &[
             "fluid.shifting=1",
             "fluid.slip=free_slip",
@@ -396,6 +400,19 @@ fn an_error_names_the_authors_file_and_line() {
         .to_string();
     assert!(
         error.contains("shaders/storage/pool/query.wgsl:") && error.contains("SLOTS"),
+        "{error}"
+    );
+    // So does one about a list.
+    let scene = common::fluid(2, &[]);
+    let plan = Plan::new(&scene, &Limits::PROMISED, &Wanted::default()).expect("a plan");
+    let mut variant = plan.variant.clone();
+    variant.lists.clear();
+    let error = Shader::load("physics/fluid/symplectic_euler", &variant)
+        .err()
+        .expect("no list")
+        .to_string();
+    assert!(
+        error.contains("shaders/physics/fluid/forces.wgsl:") && error.contains("`force`"),
         "{error}"
     );
 }

@@ -1,14 +1,14 @@
-// Catches a particle that became non-finite or left a closed domain, stops it, and keeps the first one's story.
+// Catches a particle that became non-finite, left a closed domain or ran away, stops it, and keeps the first one's story.
 #import common/vector
 
 struct Guard {
     lower: vec4f, // m; where a particle counts as lost, far away on open sides
-    upper: vec4f,
+    upper: vec4f, // w: square of a speed, m²/s²; what is faster has run away
     position: vec4f, // of the first particle caught, m
     velocity: vec4f, // m/s
     id: u32,
     step: u32, // advance_clock.wgsl sets it
-    kind: u32, // GUARD_NOT_FINITE or GUARD_LOST
+    kind: u32, // GUARD_NOT_FINITE, GUARD_LOST or GUARD_RAN_AWAY
     count: atomic<u32>, // catches in all
 }
 
@@ -23,12 +23,14 @@ fn is_finite(v: Vector) -> bool {
 // `moved` and `velocity` are what the step wants; on an accident the particle stays where it was, at rest.
 fn watch(particle: u32, before: Vector, moved: ptr<function, Vector>, velocity: ptr<function, Vector>) {
     let finite = is_finite(*moved) && is_finite(*velocity);
-    if finite && all(*moved >= first(guard.lower)) && all(*moved <= first(guard.upper)) {
+    let within = all(*moved >= first(guard.lower)) && all(*moved <= first(guard.upper));
+    let flows = dot(*velocity, *velocity) <= guard.upper.w;
+    if finite && within && flows {
         return;
     }
     if atomicAdd(&guard.count, 1u) == 0u {
         guard.id = particle;
-        guard.kind = select(GUARD_LOST, GUARD_NOT_FINITE, !finite);
+        guard.kind = select(select(GUARD_LOST, GUARD_RAN_AWAY, !flows), GUARD_NOT_FINITE, !finite);
         guard.position = vec4f(to_3d(before), 0.0);
         guard.velocity = vec4f(to_3d(*velocity), 0.0);
     }

@@ -6,6 +6,10 @@
 //! - `#if flag`, `#if !flag`, `#else`, `#end` keep lines only where the plan set the flag; a plan decides about each flag
 //!   that its shaders depend on, and about none that no shader knows;
 //! - `#flag name` sets a flag for this composition, for what the file imports below;
+//! - `#each list`, `#end` repeat the lines between them for each file of a list that the plan made. There `#import <list>`
+//!   takes that file, and `{list}` and `{List}` stand for its name, `surface_tension` and `SurfaceTension`.
+//!   `#each list {list}_pair` leaves out files without a function of that name, `#each list {List}` those without a
+//!   struct of that name;
 //! - constants that the plan set stand in front as `const NAME = value;`; a plan may also write whole modules, such as
 //!   those of the particles' fields, which are imported as files are.
 //!
@@ -42,6 +46,8 @@ pub struct Variant {
     pub roles: BTreeMap<&'static str, String>,
     /// Modules that the host writes, path → text: `fields/place`.
     pub modules: BTreeMap<String, String>,
+    /// List → files without their ending, in order: `force` → `physics/fluid/forces/pressure_symmetric`, ….
+    pub lists: BTreeMap<&'static str, Vec<String>>,
 }
 
 impl Default for Variant {
@@ -57,6 +63,7 @@ impl Default for Variant {
             constants: sizes.into(),
             roles: BTreeMap::new(),
             modules: [("host/dispatch".to_owned(), dispatch_module())].into(),
+            lists: BTreeMap::new(),
         }
     }
 }
@@ -88,6 +95,11 @@ impl Variant {
 
     pub fn role(&mut self, name: &'static str, file: impl Into<String>) -> &mut Self {
         self.roles.insert(name, file.into());
+        self
+    }
+
+    pub fn list(&mut self, name: &'static str, files: Vec<String>) -> &mut Self {
+        self.lists.insert(name, files);
         self
     }
 }
@@ -207,27 +219,43 @@ impl Composed {
         if !seen.insert(path.to_owned()) {
             return Ok(());
         }
-        let file = format!("{path}.wgsl");
-        let fail = |what: String| Error::Shader { message: what };
-        let source = match variant.modules.get(path) {
-            Some(text) => Cow::from(text.clone()),
-            None => source(&file).ok_or_else(|| fail(format!("{from}: there is no shaders/{file}")))?,
-        };
+        let source = source_of(path, variant, from)?;
+        let lines: Vec<_> = source.lines().map(Cow::from).enumerate().collect();
+        self.lines(&format!("{path}.wgsl"), &lines, variant, seen)
+    }
+
+    /// Lines of a file, each with its number from zero on.
+    fn lines(
+        &mut self,
+        file: &str,
+        lines: &[(usize, Cow<str>)],
+        variant: &mut Variant,
+        seen: &mut BTreeSet<String>,
+    ) -> Result<()> {
         // One entry for each open `#if`: whether its lines are kept.
         let mut open: Vec<bool> = Vec::new();
-        for (index, line) in source.lines().enumerate() {
+        let mut next = 0;
+        while let Some((index, line)) = lines.get(next) {
+            next += 1;
             let number = index + 1;
             let place = format!("shaders/{file}:{number}");
-            let mut words = line.split_whitespace();
+            let words: Vec<&str> = line.split_whitespace().take(4).collect();
             let keep = open.iter().all(|&kept| kept);
-            let [first, second, third] = [words.next(), words.next(), words.next()];
-            if let (Some("#if" | "#flag" | "#import"), Some(more)) = (first, third) {
+            let most = match words.first() {
+                Some(&"#each") => 3,
+                Some(&("#if" | "#flag" | "#import")) => 2,
+                Some(&("#else" | "#end")) => 1,
+                _ => usize::MAX,
+            };
+            if let Some(more) = words.get(most) {
                 return Err(fail(format!(
-                    "{place}: `{more}` is too much: a directive takes one word"
+                    "{place}: `{more}` is too much: `{}` takes {} words",
+                    words[0],
+                    most - 1
                 )));
             }
-            match (first, second) {
-                (Some("#if"), Some(flag)) => {
+            match words[..] {
+                ["#if", flag] => {
                     let (flag, wanted) = match flag.strip_prefix('!') {
                         Some(flag) => (flag, false),
                         None => (flag, true),
@@ -244,18 +272,18 @@ impl Composed {
                         open.push(false);
                     }
                 }
-                (Some("#flag"), Some(flag)) if keep => {
+                ["#flag", flag] if keep => {
                     variant.flag(flag, true);
                 }
-                (Some("#else"), None) => match open.last_mut() {
+                ["#else"] => match open.last_mut() {
                     Some(kept) => *kept = !*kept,
                     None => return Err(fail(format!("{place}: #else without #if"))),
                 },
-                (Some("#end"), None) => {
+                ["#end"] => {
                     open.pop()
-                        .ok_or_else(|| fail(format!("{place}: #end without #if")))?;
+                        .ok_or_else(|| fail(format!("{place}: #end without #if or #each")))?;
                 }
-                (Some("#import"), Some(what)) => {
+                ["#import", what] => {
                     if !keep {
                         continue;
                     }
@@ -268,10 +296,19 @@ impl Composed {
                     };
                     self.import(&target, variant, seen, &place)?;
                 }
-                (Some(word), _) if word.starts_with('#') => {
+                ["#each", list, ..] => {
+                    let end = end_of_block(&lines[next..])
+                        .ok_or_else(|| fail(format!("{place}: an #each has no #end")))?;
+                    let block = &lines[next..next + end];
+                    next += end + 1;
+                    if keep {
+                        self.each(file, &place, (list, words.get(2).copied()), block, variant, seen)?;
+                    }
+                }
+                [word, ..] if word.starts_with('#') => {
                     return Err(fail(format!("{place}: `{line}` is no directive")));
                 }
-                _ if keep => self.push(line, &file, number),
+                _ if keep => self.push(line, file, number),
                 _ => {}
             }
         }
@@ -281,6 +318,81 @@ impl Composed {
             Err(fail(format!("shaders/{file}: an #if has no #end")))
         }
     }
+
+    /// A block of lines for each file of a list that has what is asked for.
+    fn each(
+        &mut self,
+        file: &str,
+        place: &str,
+        (list, asked): (&str, Option<&str>),
+        block: &[(usize, Cow<str>)],
+        variant: &mut Variant,
+        seen: &mut BTreeSet<String>,
+    ) -> Result<()> {
+        let Some((&list, items)) = variant.lists.get_key_value(list) else {
+            return Err(fail(format!("{place}: the plan gives no list `{list}`")));
+        };
+        for item in items.clone() {
+            let name = item.rsplit('/').next().unwrap_or_default();
+            let named = |text: &str| {
+                text.replace(&format!("{{{list}}}"), name)
+                    .replace(&format!("{{{}}}", camel_case(list)), &camel_case(name))
+            };
+            if let Some(asked) = asked.map(named) {
+                let source = source_of(&item, variant, place)?;
+                if ![format!("fn {asked}("), format!("struct {asked} ")]
+                    .iter()
+                    .any(|declaration| source.contains(declaration))
+                {
+                    continue;
+                }
+            }
+            let lines: Vec<_> = block
+                .iter()
+                .map(|(index, line)| (*index, Cow::from(named(line))))
+                .collect();
+            variant.role(list, item);
+            self.lines(file, &lines, variant, seen)?;
+        }
+        variant.roles.remove(list);
+        Ok(())
+    }
+}
+
+fn fail(message: String) -> Error {
+    Error::Shader { message }
+}
+
+/// The text of a file or of a module that the plan wrote.
+fn source_of(path: &str, variant: &Variant, from: &str) -> Result<Cow<'static, str>> {
+    if let Some(text) = variant.modules.get(path) {
+        return Ok(Cow::from(text.clone()));
+    }
+    let file = format!("{path}.wgsl");
+    source(&file).ok_or_else(|| fail(format!("{from}: there is no shaders/{file}")))
+}
+
+/// Where the `#end` of a block is, whose first line is the first of these.
+fn end_of_block(lines: &[(usize, Cow<str>)]) -> Option<usize> {
+    let mut depth = 0;
+    lines.iter().position(|(_, line)| {
+        match line.split_whitespace().next() {
+            Some("#if" | "#each") => depth += 1,
+            Some("#end") => depth -= 1,
+            _ => {}
+        }
+        depth < 0
+    })
+}
+
+/// `surface_tension` as `SurfaceTension`.
+fn camel_case(name: &str) -> String {
+    let words = name.split('_').map(|word| {
+        let mut letters = word.chars();
+        let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+        first.into_iter().chain(letters).collect::<String>()
+    });
+    words.collect()
 }
 
 /// A module of this text alone.

@@ -219,13 +219,22 @@ fn walls_that_clamp(scene: &Scene) -> ClampWalls {
     }
 }
 
-/// Where particles count as lost: a diameter beyond a side that is closed.
+/// Speed beyond which a fluid's particle has run away, in speeds of sound. Scenes may throw fluid faster than sound; what is
+/// this fast is no flow, and soon no number.
+const RUNAWAY: f64 = 100.0;
+
+/// Where particles count as lost: a diameter beyond a side that is closed. The upper's fourth number is the square of the
+/// speed beyond which they have run away.
 pub fn guard_bounds(scene: &Scene) -> ([f32; 4], [f32; 4]) {
-    bounds(
+    let (lower, mut upper) = bounds(
         scene,
         |wall| !matches!(wall, Wall::Open | Wall::Periodic),
         -2.0 * scene.radius() as f32,
-    )
+    );
+    upper[3] = scene.fluid().map_or(f32::MAX, |fluid| {
+        (RUNAWAY * fluid.sound_speed).powi(2).min(f32::MAX.into()) as f32
+    });
+    (lower, upper)
 }
 
 fn measure(scene: &Scene, grains: &scene::Grains, grid: &Grid) -> Measure {

@@ -7,12 +7,13 @@ use glam::Vec3;
 
 use super::collider::{Obstacles, velocity_between};
 use super::dem::{bounds, has_wall};
-use super::kernels;
 use super::layout::{Fluid, Material, Measure, Planes, Rim, Sums};
 use super::model::{Fault, FromState, Model, OwnFigures, Request, Solver, Written};
+use super::formulas::{self, DENSITY, FORCES, Terms};
+use super::kernels;
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::scene::model::{
-    DensityFrom, FluidSolver, Integrator, Kernel, NegativePressure, PressureForce, Slip, Wall,
+    DensityFrom, FluidSolver, Integrator, Kernel, NegativePressure, Slip, ViscosityForm, Wall,
 };
 use crate::scene::walls::NO_BODY;
 use crate::scene::{self, Matter, Scene};
@@ -122,84 +123,71 @@ pub(super) fn kernel_file(kernel: Kernel) -> &'static str {
     }
 }
 
+/// What of a scene decides which formulas act.
+pub fn terms(scene: &Scene) -> Terms {
+    let fluid = given(&scene.matter);
+    // At some time during the run.
+    let ever = |has: fn(&scene::fluid::Fluid) -> bool| scene.matters().any(|matter| has(given(matter)));
+    let viscous = ever(scene::fluid::Fluid::is_viscous);
+    let form = |form: ViscosityForm| viscous && fluid.viscosity_form == form;
+    let slips = (!scene.walls.is_empty() || has_wall(scene, Wall::Planes)) && fluid.slip == Slip::FreeSlip;
+    let shifting = fluid.shifting > 0.0;
+    let clamped = fluid.negative_pressure == NegativePressure::Clamp;
+    let continuity = scene.has_field("excess");
+    Terms {
+        continuity,
+        density_diffusion: continuity && fluid.density_diffusion > 0.0,
+        gradient_correction: fluid.gradient_correction,
+        clamped,
+        controlled: fluid.negative_pressure == NegativePressure::Control,
+        pressure_force: fluid.pressure_force,
+        muller: fluid.kernel == Kernel::Muller,
+        laplacian: form(ViscosityForm::Laplacian),
+        monaghan_gingold: form(ViscosityForm::MonaghanGingold),
+        stress: scene.has_field("stress"),
+        surface_tension: scene.has_field("surface_normal"),
+        slips,
+        artificial_viscosity: ever(|fluid| fluid.artificial_viscosity > 0.0),
+        wall_friction: slips && ever(|fluid| fluid.wall_friction > 0.0),
+        shifting,
+        // In a fluid without a free surface that may not part, what looks like one is a void that shifting has to fill.
+        along_surface: shifting && (fluid.free_surface || clamped),
+    }
+}
+
 /// What a fluid needs.
 fn plan(request: &Request, variant: &mut Variant) -> Solver {
     let &Request {
         scene, statistics, ..
     } = request;
     let fluid = given(&scene.matter);
-    // At some time during the run.
-    let ever = |has: fn(&scene::fluid::Fluid) -> bool| scene.matters().any(|matter| has(given(matter)));
-    let viscous = ever(scene::fluid::Fluid::is_viscous);
-    let stress = scene.has_field("stress");
-    let tension = scene.has_field("surface_normal");
+    let terms = terms(scene);
     let walls = !scene.walls.is_empty();
     let moving = walls && scene.colliders.iter().any(|collider| !collider.path.is_empty());
     let planes = has_wall(scene, Wall::Planes);
     let rim = has_wall(scene, Wall::Particles) && has_wall(scene, Wall::Open);
-    let continuity = scene.has_field("excess");
     let several = scene.has_field("material");
-    let sticks = scene.has_field("viscous_velocity");
-    let shifting = fluid.shifting > 0.0;
-    let muller = fluid.kernel == Kernel::Muller;
-    let slips = (walls || planes) && fluid.slip == Slip::FreeSlip;
-    let damped = ever(|fluid| fluid.artificial_viscosity > 0.0);
-    let rubs = slips && ever(|fluid| fluid.wall_friction > 0.0);
-    let sliding_walls = slips && (damped || rubs);
-    // Walls along which fluid slips say nothing of the velocity's slope.
-    let exact_laplacian = fluid.gradient_correction && viscous && !stress && !muller && !slips;
+    let tension = terms.surface_tension;
     variant
         .flag(FLAG, true)
         .role("kernel", kernel_file(fluid.kernel))
         .constant("GAMMA", fluid.gamma)
         .flag("boundary_particles", walls)
         .flag("moving_boundaries", moving)
-        .flag("continuity", continuity)
-        .flag("density_diffusion", continuity && fluid.density_diffusion > 0.0)
+        .flag("continuity", terms.continuity)
         .flag("several_materials", several)
-        .flag("viscosity", viscous)
-        .flag("viscous_velocities", sticks)
-        .flag("slips", slips)
-        .flag("laplacian_form", viscous && !stress)
-        .flag("laplacian_correction", exact_laplacian)
-        .flag("velocity_slopes", shifting || exact_laplacian)
-        .flag("stress_form", stress)
-        .flag("surface_tension", tension)
-        .flag("artificial_viscosity", damped)
-        .flag("wall_friction", rubs)
-        .flag("sliding_walls", sliding_walls)
-        .flag("mirrored_walls", slips || fluid.gradient_correction)
-        .flag("muller_kernels", muller)
-        .flag(
-            "monaghan_pressure",
-            fluid.pressure_force == PressureForce::Monaghan,
-        )
-        .flag(
-            "difference_pressure",
-            fluid.pressure_force == PressureForce::Difference,
-        )
-        .flag(
-            "clamped_pressure",
-            fluid.negative_pressure == NegativePressure::Clamp,
-        )
-        .flag(
-            "controlled_pressure",
-            fluid.negative_pressure == NegativePressure::Control,
-        )
-        .flag("gradient_correction", fluid.gradient_correction)
-        .flag("shifting", shifting)
-        // Where water may not part, what looks like a surface is a void that shifting has to fill.
-        .flag(
-            "free_surface_shifting",
-            shifting && fluid.negative_pressure == NegativePressure::Clamp,
-        )
-        .flag(
-            "matrices",
-            fluid.gradient_correction || stress || shifting || sliding_walls,
-        )
+        .flag("viscous_velocities", scene.has_field("viscous_velocity"))
+        .flag("slips", terms.slips)
+        .flag("mirrored_walls", terms.slips || terms.gradient_correction)
+        .flag("clamped_pressure", terms.clamped)
+        .flag("gradient_correction", terms.gradient_correction)
+        .flag("shifting", terms.shifting)
+        .flag("matrices", terms.need_matrices())
         .flag("planes", planes)
         .flag("rim", rim)
         .flag("statistics", statistics);
+    formulas::list("force", FORCES, &terms, variant);
+    formulas::list("density", DENSITY, &terms, variant);
     if planes {
         variant.constant("PLANE_CELLS", plane_cells(fluid));
     }
@@ -279,7 +267,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             .after_search
             .push(pass("surface_normal", "find_surface", why));
     }
-    if stress {
+    if terms.stress {
         let why = "velocity gradient and viscous stress (Rojas 2013, Eq. 4)";
         solver.after_search.push(pass("stress", "find_stress", why));
     }

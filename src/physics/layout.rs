@@ -97,6 +97,7 @@ shared_struct! {
     pub struct Guard {
         /// Metres; beyond it a particle is lost.
         pub lower: [f32; 4],
+        /// The fourth: square of the speed beyond which a particle has run away, m²/s².
         pub upper: [f32; 4],
         /// Of the first particle caught, metres.
         pub position: [f32; 4],
@@ -104,7 +105,7 @@ shared_struct! {
         pub velocity: [f32; 4],
         pub id: u32,
         pub step: u32,
-        /// [`Guard::NOT_FINITE`] or [`Guard::LOST`].
+        /// [`Guard::NOT_FINITE`], [`Guard::LOST`] or [`Guard::RAN_AWAY`].
         pub kind: u32,
         pub count: u32,
     }
@@ -113,6 +114,7 @@ shared_struct! {
 impl Guard {
     pub const NOT_FINITE: u32 = 1;
     pub const LOST: u32 = 2;
+    pub const RAN_AWAY: u32 = 3;
     /// Stands in `step` as long as nothing was caught.
     pub const NO_STEP: u32 = u32::MAX;
 }

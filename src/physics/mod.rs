@@ -5,6 +5,7 @@ pub mod dem;
 pub mod dfsph;
 pub mod fields;
 pub mod fluid;
+pub mod formulas;
 pub mod kernels;
 pub mod layout;
 mod model;

@@ -203,6 +203,7 @@ impl Plan {
             .constant("DIMENSIONS", scene.dimensions.count() as u32)
             .constant("GUARD_NOT_FINITE", Guard::NOT_FINITE)
             .constant("GUARD_LOST", Guard::LOST)
+            .constant("GUARD_RAN_AWAY", Guard::RAN_AWAY)
             .constant("GUARD_NO_STEP", Guard::NO_STEP);
 
         let mut columns = wanted.columns.clone();

@@ -4,7 +4,7 @@ use super::changes;
 use super::frame::Report;
 use super::model::{
     ColliderShape, Fluid, FluidSolver, Integrator, Kernel, NegativePressure, PressureForce, SceneFile, Slip,
-    StartPressure, ViscosityForm,
+    StartPressure,
 };
 
 /// A problem for each.
@@ -80,9 +80,9 @@ fn of_compressible_fluids(file: &SceneFile, fluid: &Fluid, report: &mut Report) 
             fluid.negative_pressure != NegativePressure::default(),
         ),
         ("gradient_correction", fluid.gradient_correction),
-        ("shifting", fluid.shifting > 0.0),
+        ("shifting", fluid.shifting.is_some_and(|s| s > 0.0)),
         ("wall_friction", fluid.wall_friction > 0.0),
-        ("viscosity_form", fluid.viscosity_form != ViscosityForm::default()),
+        ("viscosity_form", fluid.viscosity_form.is_some()),
         ("surface_tension", fluid.surface_tension > 0.0),
         ("materials", !fluid.materials.is_empty()),
     ];

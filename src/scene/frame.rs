@@ -69,6 +69,14 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// Whether a local point is nearer than `reach` (metres) to a side that is a plane.
+    pub fn beside_planes(&self, at: DVec3, reach: f64) -> bool {
+        (0..3).any(|axis| {
+            let [low, high] = self.sides[axis].map(|side| side == Wall::Planes);
+            low && at[axis] - self.min[axis] < reach || high && self.max[axis] - at[axis] < reach
+        })
+    }
+
     pub fn new(file: &SceneFile, report: &mut Report) -> Self {
         let dimensions = match file.dimensions {
             2 => Dimensions::Two,

@@ -17,6 +17,7 @@ mod fit;
 pub mod fluid;
 mod fluid_keys;
 mod frame;
+mod free_surface;
 pub mod import;
 mod json;
 pub mod keys;

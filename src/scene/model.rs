@@ -359,6 +359,31 @@ pub enum Flow {
         #[schemars(range(min = 1e-9, max = 1e6))]
         wavelength: f64,
     },
+    /// Turns like a rigid body about the z axis through the origin.
+    Rotation {
+        /// Angular speed, counter-clockwise, rad/s.
+        #[schemars(range(min = -1e9, max = 1e9))]
+        rate: f64,
+    },
+    /// Is stretched along y and pressed together along x, from the origin on: velocity (−A x, A y).
+    Stretch {
+        /// A, 1/s.
+        #[schemars(range(min = -1e9, max = 1e9))]
+        rate: f64,
+    },
+    /// A wave that stands, as it passes through its flat surface: crests and troughs over x = 0 and every half wavelength,
+    /// over a floor at y = 0.
+    StandingWave {
+        /// Fastest speed at the surface, m/s.
+        #[schemars(range(min = 0.0, max = 1e9))]
+        speed: f64,
+        /// Metres.
+        #[schemars(range(min = 1e-9, max = 1e6))]
+        wavelength: f64,
+        /// Of the fluid, metres.
+        #[schemars(range(min = 1e-9, max = 1e6))]
+        depth: f64,
+    },
 }
 
 /// Pressure of a body at the start.

@@ -47,6 +47,11 @@ impl Schedule<'_> {
         })
     }
 
+    /// Whether more particles come.
+    pub fn adds(&self) -> bool {
+        self.due.iter().any(|(_, due)| matches!(due, Due::Add(_)))
+    }
+
     /// What happens to particles that begin as `matter`.
     pub fn actions(self, mut matter: Matter) -> Vec<Scheduled> {
         let mut act = |due: Due| match due {

@@ -13,6 +13,7 @@ use super::filling;
 use super::fluid::{Fluid, Speeds};
 use super::fluid_keys;
 use super::frame::{Frame, Report};
+use super::free_surface;
 use super::model::{
     Addressing, DensityFrom, FluidSolver, Integrator, Render, SceneFile, SlicingAxis, StartPressure, Storage,
     Wall,
@@ -20,7 +21,8 @@ use super::model::{
 use super::text::number;
 use super::walls::{self, Walls};
 use super::{
-    Action, Dimensions, Grains, Matter, Neighbors, Particles, Scene, Written, obstacles, schedule, time,
+    Action, Dimensions, Grains, Matter, Neighbors, Particles, Scene, Written, obstacles, schedule,
+    time,
 };
 use crate::error::Problem;
 
@@ -81,6 +83,16 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
             if all_sound {
                 walls = walls::sample(&file, &frame, &colliders, fluid.wall_depth(), &mut report);
             }
+            let surface = all_sound
+                && (schedule.adds()
+                    || free_surface::there(
+                        &particles.position,
+                        &walls.position,
+                        &frame,
+                        fluid.spacing,
+                        fluid.support,
+                    ));
+            let fluid = fluid.with_surface(given, surface, gravity.length(), file.time.integrator);
             let matter = Matter::Fluid(fluid.clone());
             let actions = schedule.actions(matter.clone());
             let later = actions.iter().filter_map(|scheduled| match &scheduled.action {
@@ -99,7 +111,8 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
         }
     };
     let capacity = capacity(&file, particles.len(), walls.len(), &schedule, &mut report);
-    let shifts = file.fluid.as_ref().is_some_and(|fluid| fluid.shifting > 0.0);
+    let given = file.fluid.as_ref().and_then(|fluid| fluid.shifting);
+    let shifts = given.is_some_and(|strength| strength > 0.0);
     if shifts && file.time.integrator == Integrator::VelocityVerlet {
         report.problem(
             "fluid.shifting",

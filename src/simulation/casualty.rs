@@ -17,7 +17,15 @@ impl Simulation {
         let fault = &self.plan.model.fault;
         let radii = f64::from(speed) * place.step / self.scene.radius();
         let (what, likely_cause) = match guard.kind {
-            Guard::NOT_FINITE => (
+            Guard::RAN_AWAY if self.scene.fluid().is_some() => (
+                "a particle is more than a hundred times faster than sound in the fluid",
+                format!(
+                    "pressures push it on without end, or the time step of {:.3e} s is too long; raise \
+                     fluid.max_speed, lower time.step, or set fluid.negative_pressure to `clamp`",
+                    place.step
+                ),
+            ),
+            Guard::NOT_FINITE | Guard::RAN_AWAY => (
                 "a particle's position or velocity is not a finite number",
                 format!(
                     "the time step of {:.3e} s is too long for {}",

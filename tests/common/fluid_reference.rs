@@ -317,9 +317,6 @@ impl Reference {
                     PressureForce::Monaghan => {
                         other * density * (p / (density * density) + q / (other * other))
                     }
-                    PressureForce::Symmetric if fluid.negative_pressure == NegativePressure::Control => {
-                        q + p.abs()
-                    }
                     PressureForce::Symmetric => q + p,
                 };
                 push -= volume * pressures * gradient;
@@ -339,6 +336,11 @@ impl Reference {
                         / h.powi(self.dimensions as i32 + 2)
                         * (1.0 - r / h);
                     drag += viscosity * volume * laplacian * apart;
+                } else if fluid.viscosity_form == ViscosityForm::MonaghanGingold && !slides {
+                    let both = viscosity + fluid.materials[self.material[j]].viscosity;
+                    let steep = volume * gradient.dot(away) / (r * r);
+                    let approach = apart.dot(away) / (r * r).max(0.01 * half * half);
+                    drag += (self.dimensions as f64 + 2.0) * both * steep * approach * away;
                 } else if !slides {
                     let both = viscosity + fluid.materials[self.material[j]].viscosity;
                     drag += both * volume * gradient.dot(away) / (r * r) * apart;
@@ -373,6 +375,10 @@ impl Reference {
                 inside += volume * gradient;
                 surrounded += volume * gradient.dot(away) / self.dimensions as f64;
                 excess_slope += volume * (self.excess[j] - self.excess[i]) * gradient;
+            }
+            let shown = |least: f64, most: f64| ((surrounded - least) / (most - least)).clamp(0.0, 1.0);
+            if fluid.negative_pressure == NegativePressure::Control {
+                push += shown(0.9, 0.97) * 2.0 * self.pressure[i].min(0.0) * inside;
             }
             if against > 0.0 {
                 let area = inwards.length();
@@ -412,9 +418,9 @@ impl Reference {
                 }
             }
             let normal = inside.normalize_or_zero();
-            let through = (1.0 - ((surrounded - 0.8) / 0.15).clamp(0.0, 1.0)) * crowd.dot(normal);
-            let crowd = if fluid.negative_pressure == NegativePressure::Clamp {
-                ((surrounded - 0.3) / 0.1).clamp(0.0, 1.0) * (crowd - through * normal)
+            let through = (1.0 - shown(0.8, 0.95)) * crowd.dot(normal);
+            let crowd = if fluid.free_surface || fluid.negative_pressure == NegativePressure::Clamp {
+                shown(0.3, 0.4) * (crowd - through * normal)
             } else {
                 crowd
             };

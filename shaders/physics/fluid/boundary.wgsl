@@ -52,10 +52,8 @@ fn extend_to_walls(thread: Thread) {
     }
     let none = weights <= 0.0;
     let share = select(1.0 / weights, 0.0, none);
-    var p = select((pressure - dot(first(parameters.gravity), weight_moment)) * share, fluid.background_pressure, none);
-#if clamped_pressure
-    p = max(p, 0.0);
-#end
+    let extended = select((pressure - dot(first(parameters.gravity), weight_moment)) * share, fluid.background_pressure, none);
+    let p = allowed_pressure(extended);
     let e = excess_at(select(stiffness * share, fluid.stiffness, none), p);
     fluid_state[i] = vec2f(e, p);
 #if viscous_velocities

@@ -17,9 +17,17 @@ var<storage, read> materials: array<Material>;
 fn material_of(i: u32) -> Material {
     return materials[material[i]];
 }
+
+fn same_material(i: u32, j: u32) -> bool {
+    return material[i] == material[j];
+}
 #else
 fn material_of(i: u32) -> Material {
     return Material(fluid.density, fluid.viscosity, fluid.stiffness, fluid.surface_tension);
+}
+
+fn same_material(i: u32, j: u32) -> bool {
+    return true;
 }
 #end
 
@@ -36,4 +44,13 @@ fn pressure_at(stiffness: f32, excess: f32) -> f32 {
 fn excess_at(stiffness: f32, pressure: f32) -> f32 {
     let ratio = max(1.0 + (pressure - fluid.background_pressure) / stiffness, 0.0);
     return pow(ratio, 1.0 / f32(GAMMA)) - 1.0;
+}
+
+// Of a pressure, what the scene lets act.
+fn allowed_pressure(pressure: f32) -> f32 {
+#if clamped_pressure
+    return max(pressure, 0.0);
+#else
+    return pressure;
+#end
 }

@@ -35,9 +35,10 @@ fn move_fluid(thread: Thread) {
     var v = unpack(velocity[i]) + dt * forces.acceleration;
     var moved = x + dt * v;
 #if shifting
-    moved += forces.shift;
-    v += forces.velocity_slope * forces.shift;
-    excess += dot(forces.excess_slope, forces.shift);
+    let way = forces.shifting.way;
+    moved += way;
+    v += forces.velocity_gradient.slope * way;
+    excess += dot(forces.shifting.excess_slope, way);
 #end
     moved = wrapped(moved);
 #if rim

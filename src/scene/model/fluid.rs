@@ -22,9 +22,10 @@ pub struct Fluid {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub viscosity: f64,
-    /// How viscous forces are computed.
-    #[serde(default)]
-    pub viscosity_form: ViscosityForm,
+    /// How viscous forces are computed; `monaghan_gingold` for a fluid of `wcsph` with a free surface and `laplacian` for
+    /// all others when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub viscosity_form: Option<ViscosityForm>,
     /// Artificial viscosity α (Monaghan 1992); keeps impacts stable. Walls along which fluid slips damp only what
     /// comes nearer.
     #[serde(default)]
@@ -89,11 +90,12 @@ pub struct Fluid {
     #[serde(default)]
     pub gradient_correction: bool,
     /// Strength of particle shifting, which keeps particles evenly spread (Lind 2012); 0 is none, 1 that of δ⁺-SPH
-    /// (Sun 2017). Where negative pressures are clamped, so that water has free surfaces, it acts along these only; else
-    /// it fills voids.
-    #[serde(default)]
+    /// (Sun 2017). In a fluid with a free surface, or whose negative pressures are clamped, it acts along surfaces only; else
+    /// it fills voids. When left out, 0.5 for one fluid of `wcsph` in flight, with a free surface but without gravity and
+    /// surface tension, that `symplectic_euler` moves, and 0 for all others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 2.0))]
-    pub shifting: f64,
+    pub shifting: Option<f64>,
     /// What fluid does at walls.
     #[serde(default)]
     pub slip: Slip,
@@ -191,9 +193,12 @@ pub enum Kernel {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ViscosityForm {
-    /// Differences of velocities along pairs (Morris 1997; the listing of Rojas 2013).
+    /// Differences of velocities (Morris 1997; the listing of Rojas 2013). At a free surface it dissipates too little.
     #[default]
     Laplacian,
+    /// The parts of those differences along pairs (Monaghan and Gingold 1983): dissipates what a free surface asks for
+    /// (Colagrossi 2011), and keeps angular momentum.
+    MonaghanGingold,
     /// The divergence of the viscous stress, which takes one more pass (Rojas 2013, Eq. 4).
     Stress,
 }
@@ -234,7 +239,7 @@ pub enum NegativePressure {
     /// so that spray falls and does not hover as a gas.
     #[default]
     Clamp,
-    /// They act through the difference of pressures, which cannot clump particles (Sun 2018).
+    /// Inside of the fluid they act through the difference of pressures, which cannot clump particles (Sun 2018).
     Control,
 }
 

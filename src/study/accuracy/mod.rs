@@ -14,6 +14,7 @@ pub mod reference;
 pub mod run;
 pub mod sampler;
 pub mod series;
+pub mod spread;
 pub mod theory;
 pub mod work_precision;
 

@@ -4,12 +4,16 @@ pub(in crate::study) mod channel;
 mod collision;
 mod columns;
 mod dem;
+mod elliptical_drop;
+mod fastest_particle;
 mod fluid;
 mod gas;
 mod lid_cavity;
 pub(in crate::study) mod lobovsky_dam;
 pub(in crate::study) mod martin_moyce;
+mod rotating_square;
 mod spheric_2;
+mod standing_wave;
 pub(in crate::study) mod still_water;
 mod taylor_couette;
 pub(in crate::study) mod taylor_green_2d;
@@ -53,6 +57,10 @@ pub const CASES: &[Case] = &[
     lobovsky_dam::CASE,
     taylor_green_3d::CASE,
     spheric_2::CASE,
+    rotating_square::CASE,
+    elliptical_drop::CASE,
+    standing_wave::CASE,
+    fastest_particle::CASE,
     collision::CASE,
     gas::CASE,
 ];

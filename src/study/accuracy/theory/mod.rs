@@ -2,7 +2,9 @@
 
 pub mod channel;
 pub mod collision;
+pub mod elliptical_drop;
 pub mod ritter;
+pub mod rotating_square;
 pub mod still_water;
 pub mod taylor_couette;
 pub mod taylor_green;

@@ -1,10 +1,11 @@
 //! Every formula against the table that was computed or published elsewhere.
 
 use super::collision::Collision;
+use super::elliptical_drop::Ellipse;
 use super::still_water::StillWater;
 use super::taylor_couette::TaylorCouette;
 use super::taylor_green::TaylorGreen;
-use super::{channel, ritter};
+use super::{channel, ritter, rotating_square};
 use crate::study::accuracy::reference::Table;
 
 /// The largest difference between a formula of a row and a column, each over one plus the column's magnitude.
@@ -160,4 +161,26 @@ fn grains_collide() {
         let off = largest(&table, column, |row| of(&collision(row)));
         assert!(off < 1e-8, "{column}: {off:e}");
     }
+}
+
+#[test]
+fn a_drop_is_stretched() {
+    let table = Table::shipped("elliptical_drop_monaghan1994").unwrap();
+    let off = largest(&table, "A", |row| Ellipse::at(100.0, row("t")).rate);
+    assert!(off < 1e-6, "{off:e}");
+    let off = largest(&table, "a", |row| Ellipse::at(100.0, row("t")).short);
+    assert!(off < 1e-6, "{off:e}");
+}
+
+#[test]
+fn a_square_that_turns_pulls_itself_together() {
+    let table = Table::shipped("rotating_square_patch_initial_pressure").unwrap();
+    let off = largest(&table, "p_midline", |row| {
+        rotating_square::pressure([row("s_over_L"), 0.5])
+    });
+    assert!(off < 1e-4, "{off:e}");
+    let off = largest(&table, "p_diagonal", |row| {
+        rotating_square::pressure([row("s_over_L"); 2])
+    });
+    assert!(off < 1e-4, "{off:e}");
 }

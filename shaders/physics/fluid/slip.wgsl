@@ -1,0 +1,6 @@
+// Whether fluid slips along walls.
+#if slips
+const SLIPS: bool = true;
+#else
+const SLIPS: bool = false;
+#end
