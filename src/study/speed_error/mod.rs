@@ -249,8 +249,8 @@ fn achieved(ladder: &Ladder) -> Vec<Achievement> {
             step: rung.step,
             resolution: rung.resolution,
             error: rung.error?,
+            particles: rung.particles,
             wall_per_simulated: rung.wall_per_simulated()?,
-            pairs_per_s: rung.pairs_per_s()?,
         })
     };
     on_front(&ladder.rungs).into_iter().filter_map(of).collect()
