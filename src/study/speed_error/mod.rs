@@ -72,7 +72,7 @@ const LONGEST_RUN: f64 = 120.0;
 fn limit(size: Size) -> f64 {
     match size {
         Size::Tiny | Size::Full => f64::INFINITY,
-        Size::Small => 170.0,
+        Size::Small => 160.0,
     }
 }
 
@@ -190,7 +190,7 @@ fn ladder(page: &mut Page, bench: &Bench, shared: &mut Shared, index: usize) -> 
 fn why(error: &Error) -> String {
     match error {
         Error::Scene { problems, .. } => problems.first().map_or_else(String::new, |problem| {
-            format!("refused: {} {}", problem.path, problem.what)
+            format!("refused: {}: {}", problem.path, problem.what)
         }),
         other => first_line(other),
     }
