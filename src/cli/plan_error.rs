@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use crate::error::{Error, Result};
-use crate::output::text::{count, metres, seconds, short};
-use crate::plan::achieved::{Achieved, Advice, KINDS, pairs, percent};
+use crate::output::text::{count, metres};
+use crate::plan::achieved::{Achieved, Advice, KINDS, percent};
 use crate::scene::{Scene, load};
 
 #[derive(clap::Args)]
@@ -90,12 +90,6 @@ impl Proposal {
         })
     }
 
-    /// Wall seconds of a simulated second, on the machine of the results.
-    fn wall_per_simulated(&self) -> f64 {
-        let particles = f64::from(self.scene.first_wall());
-        particles * pairs(&self.scene) / self.advice.pairs_per_s / self.scene.time.step
-    }
-
     pub fn json(&self) -> Value {
         let fluid = self.scene.fluid();
         json!({
@@ -107,7 +101,6 @@ impl Proposal {
                 "step_adaptive": self.scene.time.adaptive.is_some(),
                 "particles": self.scene.first_wall(),
                 "set": self.set,
-                "wall_per_simulated": self.wall_per_simulated(),
             },
             "basis": self.advice,
         })
@@ -145,22 +138,25 @@ impl fmt::Display for Proposal {
         )?;
         writeln!(
             f,
-            "measured   {}, {}: {} pairs/s",
+            "measured   {}, {}: there {} wall seconds of {} particles made one simulated second",
             advice.machine,
             advice.date,
-            short(advice.pairs_per_s)
-        )?;
-        writeln!(
-            f,
-            "time       about {} a simulated second there; --measure tells it for this machine",
-            seconds(self.wall_per_simulated())
+            digits(advice.wall_per_simulated),
+            count(advice.particles.into())
         )?;
         let set: String = self.set.iter().map(|key| format!(" --set '{key}'")).collect();
         writeln!(f, "run        sliceflow run {}{set}", self.given)?;
         writeln!(
             f,
             "\nnote: the error is that of the named case, in 2D; another scene's error is another one, of this order at most \
-             where its flow is as smooth. Keys that are not set stay the scene's own."
+             where its flow is as smooth. Keys that are not set stay the scene's own. `plan --measure` with the same --set tells how long \
+             the run takes here."
         )
     }
+}
+
+/// Three digits.
+fn digits(value: f64) -> String {
+    let decimals = (2 - value.abs().max(1e-3).log10().floor() as i32).clamp(0, 5) as usize;
+    format!("{value:.decimals$}")
 }

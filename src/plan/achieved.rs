@@ -5,7 +5,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
-use crate::scene::{Dimensions, Scene};
+use crate::scene::Scene;
 
 /// The table that ships.
 const SHIPPED: &str = include_str!("../../assets/speed_error.json");
@@ -36,8 +36,8 @@ pub struct Achievement {
     pub resolution: u32,
     /// Percent.
     pub error: f64,
+    pub particles: u32,
     pub wall_per_simulated: f64,
-    pub pairs_per_s: f64,
 }
 
 /// A kind of flow with a case of its own.
@@ -98,7 +98,9 @@ pub struct Advice {
     /// What measured, and when.
     pub machine: String,
     pub date: String,
-    pub pairs_per_s: f64,
+    /// Of the case, beside the wall seconds that its simulated second took there.
+    pub particles: u32,
+    pub wall_per_simulated: f64,
 }
 
 impl Achieved {
@@ -159,7 +161,8 @@ impl Achieved {
             step: best.step,
             machine: self.machine.clone(),
             date: self.date.clone(),
-            pairs_per_s: best.pairs_per_s,
+            particles: best.particles,
+            wall_per_simulated: best.wall_per_simulated,
         })
     }
 }
@@ -264,15 +267,6 @@ fn length(scene: &Scene, kind: &Kind) -> Result<f64> {
         })
 }
 
-/// Pairs of a particle inside a fluid with this support, from both sides.
-pub fn pairs(scene: &Scene) -> f64 {
-    let radii = scene.fluid().map_or(0.0, |fluid| fluid.support / fluid.spacing);
-    match scene.dimensions {
-        Dimensions::Two => std::f64::consts::PI * radii.powi(2),
-        Dimensions::Three => 4.0 / 3.0 * std::f64::consts::PI * radii.powi(3),
-    }
-}
-
 /// `2%` or `2`, in percent.
 ///
 /// # Errors
@@ -305,8 +299,8 @@ mod tests {
             step: 1.0,
             resolution,
             error,
+            particles: resolution * resolution,
             wall_per_simulated: wall,
-            pairs_per_s: 1e8,
         };
         Achieved {
             machine: "an adapter".into(),

@@ -72,7 +72,7 @@ const LONGEST_RUN: f64 = 120.0;
 fn limit(size: Size) -> f64 {
     match size {
         Size::Tiny | Size::Full => f64::INFINITY,
-        Size::Small => 170.0,
+        Size::Small => 160.0,
     }
 }
 
@@ -190,7 +190,7 @@ fn ladder(page: &mut Page, bench: &Bench, shared: &mut Shared, index: usize) -> 
 fn why(error: &Error) -> String {
     match error {
         Error::Scene { problems, .. } => problems.first().map_or_else(String::new, |problem| {
-            format!("refused: {} {}", problem.path, problem.what)
+            format!("refused: {}: {}", problem.path, problem.what)
         }),
         other => first_line(other),
     }
@@ -249,8 +249,8 @@ fn achieved(ladder: &Ladder) -> Vec<Achievement> {
             step: rung.step,
             resolution: rung.resolution,
             error: rung.error?,
+            particles: rung.particles,
             wall_per_simulated: rung.wall_per_simulated()?,
-            pairs_per_s: rung.pairs_per_s()?,
         })
     };
     on_front(&ladder.rungs).into_iter().filter_map(of).collect()

@@ -144,6 +144,7 @@ fn peers(page: &mut Page, ladder: &Ladder) {
                     ]);
                 }
                 page.table(&format!("{}_{}", case.name, program.to_lowercase()), &table);
+                page.paragraph("`assets/peers/` has the scripts that ran them, with all settings.");
             }
         }
     }
