@@ -72,7 +72,11 @@ fn forces_on(i: u32) -> Forces {
         for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
             let s = toward(x, j);
+#if of_one_body
+            if within(s, fluid.support) && is_sensed(j) {
+#else
             if within(s, fluid.support) && j != i {
+#end
                 let r = length(s);
                 let other = fluid_state[j];
                 let weight = volume_at(other.x) * kernel_slope(r); // the gradient of W is −s times the slope
@@ -165,7 +169,12 @@ fn forces_on(i: u32) -> Forces {
 #if planes
     let cells = cells_beyond(x);
     for (var number = 0u; number < cells; number++) {
+#if of_one_body
+        var cell = beyond(x, number);
+        cell.share *= select(0.0, 1.0, is_sensed_side(x + cell.way));
+#else
         let cell = beyond(x, number);
+#end
         let s = cell.way;
         let r = length(s);
         let weight = cell.share * volume_at(state.x) * kernel_slope(r);
@@ -272,7 +281,11 @@ fn forces_on(i: u32) -> Forces {
     let curvature = clamp(-f32(DIMENSIONS - 1u) * turned / max(seen, 1e-30), -sharpest, sharpest);
     push += (2.0 * own.surface_tension * curvature) * normal;
 #end
+#if of_one_body
+    forces.acceleration = (push + drag) / density;
+#else
     forces.acceleration = first(parameters.gravity) + (push + drag) / density;
+#end
 #if shifting
 #if free_surface_shifting
     crowd = along_surface(crowd, inside, surrounded);
