@@ -264,6 +264,7 @@ fn every_scene_in_the_guide_has_a_plan() {
             let wanted = Wanted {
                 statistics: true,
                 view: Some(scene.render.view),
+                sensors: true,
                 ..Wanted::default()
             };
             Plan::new(&scene, &Limits::PROMISED, &wanted).unwrap_or_else(|e| panic!("{place}{e}"));

@@ -24,6 +24,7 @@ fn wanted() -> Wanted {
         columns_every: 0,
         view: None,
         voxel_map: Some(64),
+        sensors: false,
     }
 }
 
@@ -111,10 +112,76 @@ fn fluid_plans() -> Vec<Plan> {
     plans
 }
 
+/// Every kind of sensor that grains or a fluid can have.
+fn sensors(dimensions: usize, is_fluid: bool) -> String {
+    let at = |numbers: [f64; 3]| format!("{:?}", &numbers[..dimensions]);
+    let mut all = vec![
+        format!(
+            r#"{{"name":"flux","kind":"flux","min":{},"max":{}}}"#,
+            at([0.5, 0.1, 0.1]),
+            at([0.5, 0.2, 0.2])
+        ),
+        r#"{"name":"side","kind":"force","side":"x_min"}"#.into(),
+        r#"{"name":"profile","kind":"profile","axis":"x"}"#.into(),
+        r#"{"name":"extremes","kind":"extremes","field":"position"}"#.into(),
+    ];
+    if is_fluid {
+        all.extend([
+            r#"{"name":"post","kind":"force","obstacle":"post"}"#.into(),
+            format!(r#"{{"name":"point","kind":"point","at":{}}}"#, at([0.2; 3])),
+            format!(r#"{{"name":"height","kind":"height","from":{}}}"#, at([0.2; 3])),
+        ]);
+    }
+    format!("sensors=[{}]", all.join(","))
+}
+
+/// Plans of scenes with sensors.
+fn plans_with_sensors() -> Vec<Plan> {
+    let mut plans = Vec::new();
+    let wanted = Wanted {
+        sensors: true,
+        ..Wanted::default()
+    };
+    let mut add = |scene| plans.push(Plan::new(&scene, &Limits::PROMISED, &wanted).expect("a plan"));
+    for dimensions in [2, 3] {
+        let of_fluids = sensors(dimensions, true);
+        for more in [
+            &["domain.walls=particles"][..],
+            &["domain.walls=planes", "fluid.viscosity=0.1"],
+            &["fluid.solver=dfsph", "fluid.viscosity=0.1"],
+            &[
+                "fluid.artificial_viscosity=0.1",
+                "fluid.slip=free_slip",
+                "neighbors.storage=pool",
+            ],
+            &[
+                "domain.sides={\"y_min\":\"periodic\",\"y_max\":\"periodic\"}",
+                "neighbors.cell=half",
+            ],
+            &["fluid.materials=[{\"name\":\"water\",\"density\":1000},{\"name\":\"oil\",\"density\":900}]"],
+        ] {
+            add(common::fluid(dimensions, &[&[&*of_fluids], more].concat()));
+        }
+        let of_grains = sensors(dimensions, false);
+        for more in [
+            "neighbors.storage=pool",
+            "time.adaptive=true",
+            "time.integrator=velocity_verlet",
+        ] {
+            add(common::scene(
+                dimensions,
+                &[&of_grains, more, "domain.walls=contact", "domain.sides={}"],
+            ));
+        }
+    }
+    plans
+}
+
 /// Plans that together use every flag and role.
 fn plans() -> Vec<Plan> {
     let wanted = wanted();
     let mut plans = fluid_plans();
+    plans.extend(plans_with_sensors());
     for dimensions in [2, 3] {
         for addressing in ADDRESSINGS.iter().map(|row| row.name) {
             for storage in STORAGES.iter().map(|row| row.name) {

@@ -12,6 +12,7 @@ mod diff;
 mod grid;
 mod import;
 mod inspect;
+mod measure;
 mod neighbors;
 mod new;
 mod particle_args;
@@ -68,6 +69,7 @@ enum Command {
     Diff(diff::Args),
     Plan(plan::Args),
     Inspect(inspect::Args),
+    Measure(measure::Args),
     Neighbors(neighbors::Args),
     Surface(surface::Args),
     Import(import::Args),
@@ -94,6 +96,7 @@ pub fn main() -> Result<()> {
         Command::Diff(args) => diff::main(&args),
         Command::Plan(args) => plan::main(&args),
         Command::Inspect(args) => inspect::main(&args),
+        Command::Measure(args) => measure::main(&args),
         Command::Neighbors(args) => neighbors::main(&args),
         Command::Surface(args) => surface::main(&args),
         Command::Import(args) => import::main(&args),

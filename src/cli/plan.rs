@@ -285,5 +285,6 @@ fn when(phase: Phase) -> &'static str {
         Phase::Start => "at the start",
         Phase::Step => "each step",
         Phase::Observe => "each frame",
+        Phase::Sample => "each sample",
     }
 }

@@ -4,8 +4,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::disk;
 use super::text::count;
+use super::{disk, sensors};
 use crate::error::{Error, Result};
 
 /// A folder that exists and can be written, by nobody else as long as this lives.
@@ -26,6 +26,8 @@ struct Earlier {
     arrays: Vec<PathBuf>,
     surfaces: Vec<PathBuf>,
     checkpoints: Vec<PathBuf>,
+    /// Tables and charts of sensors.
+    sensors: Vec<PathBuf>,
     /// Manifest, statistics, index.
     records: Vec<PathBuf>,
 }
@@ -77,6 +79,32 @@ impl Folder {
         self.path.join("stats.jsonl")
     }
 
+    /// The table of all sensors but profiles.
+    pub fn sensors(&self) -> PathBuf {
+        self.path.join("sensors.csv")
+    }
+
+    /// The table of a profile.
+    pub fn sensor_profile(&self, name: &str) -> PathBuf {
+        self.path.join(format!("sensor_{name}.csv"))
+    }
+
+    /// Tables of sensors.
+    pub fn sensor_tables(&self) -> Result<Vec<PathBuf>> {
+        let failed = |reason| disk::failed(&self.path, "list", reason);
+        let mut tables = Vec::new();
+        for entry in fs::read_dir(&self.path).map_err(failed)? {
+            let path = entry.map_err(failed)?.path();
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let is_named = name.starts_with("sensor") && name.ends_with(".csv");
+            if is_named && sensors::is_table(&path) {
+                tables.push(path);
+            }
+        }
+        tables.sort();
+        Ok(tables)
+    }
+
     pub fn manifest(&self) -> PathBuf {
         self.path.join("run.json")
     }
@@ -92,6 +120,7 @@ impl Folder {
             &earlier.particles,
             &earlier.surfaces,
             &earlier.checkpoints,
+            &earlier.sensors,
             &earlier.records,
         ];
         for file in files.into_iter().flatten() {
@@ -109,6 +138,14 @@ impl Folder {
     fn earlier(&self) -> Result<Earlier> {
         let failed = |reason| disk::failed(&self.path, "list", reason);
         let mut earlier = Earlier::default();
+        let tables = self.sensor_tables()?;
+        let charts = tables.iter().map(|table| table.with_extension("png"));
+        let charts: Vec<PathBuf> = match tables.contains(&self.sensors()) {
+            true => charts
+                .chain(sensors::chart_names().map(|name| self.path.join(name)))
+                .collect(),
+            false => charts.collect(),
+        };
         for entry in fs::read_dir(&self.path).map_err(failed)? {
             let path = entry.map_err(failed)?.path();
             let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -120,6 +157,8 @@ impl Folder {
             let is_particles = |extension| numbered(&name, "particles_", extension).is_some();
             if records.contains(&path) {
                 earlier.records.push(path);
+            } else if tables.contains(&path) || charts.contains(&path) {
+                earlier.sensors.push(path);
             } else if numbered(&name, "frame_", ".png").is_some() {
                 earlier.pictures.push(path);
             } else if numbered(&name, "checkpoint_", ".bin").is_some() {
@@ -159,6 +198,7 @@ impl Earlier {
             &self.arrays,
             &self.surfaces,
             &self.checkpoints,
+            &self.sensors,
             &self.records,
         ]
         .iter()
@@ -178,6 +218,7 @@ impl std::fmt::Display for Earlier {
             .chain(counted(&self.arrays, "folders of arrays"))
             .chain(counted(&self.surfaces, "surfaces"))
             .chain(counted(&self.checkpoints, "checkpoints"))
+            .chain(counted(&self.sensors, "files of sensors"))
             .chain(names.map(str::to_owned));
         f.write_str(&parts.collect::<Vec<_>>().join(", "))
     }

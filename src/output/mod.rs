@@ -30,6 +30,7 @@ pub mod rerun;
 mod resume;
 mod rewind;
 mod run;
+mod sensors;
 mod statistics;
 mod stopping;
 #[cfg(feature = "surface")]
@@ -61,6 +62,7 @@ pub use recipe::Recorded;
 pub use redraw::redraw;
 pub use resume::{branch, resume};
 pub use run::{Outputs, Settings, run};
+pub use sensors::from_files::measure_files;
 pub use statistics::schema as statistics_schema;
 pub use tally::Tally;
 pub use video::VideoOutput;

@@ -43,6 +43,8 @@ pub fn redraw(
     let recipe = recorded.recipe()?;
     let mut scene = recipe.scene(overrides)?;
     check_changes(&recipe.scene(&[])?, &scene)?;
+    // Nothing is simulated that they could measure.
+    scene.sensors = Default::default();
     if let Some(video) = &settings.outputs.video {
         video.check(settings.force)?;
     }

@@ -19,6 +19,8 @@ mod frames;
 #[cfg(feature = "rerun")]
 mod present;
 #[cfg(feature = "rerun")]
+mod sensors;
+#[cfg(feature = "rerun")]
 mod series;
 #[cfg(feature = "rerun")]
 mod server;

@@ -42,7 +42,11 @@ impl Folder {
                 removed += u64::from(!is_partial);
             }
         }
-        cut_statistics(&self.statistics(), last)?;
+        cut_lines(&self.statistics(), last, 0, frame_of_statistics)?;
+        for table in self.sensor_tables()? {
+            // A table of no frame begins anew with its first line.
+            cut_lines(&table, last, usize::from(last.is_some()), frame_of_sample)?;
+        }
         Ok((removed > 0).then(|| match last {
             Some(last) => format!(
                 "removed {} files of frames after frame {last}, which are made again",
@@ -105,20 +109,37 @@ fn remove(path: &Path) -> Result<()> {
     remove().map_err(|reason| disk::failed(path, "remove", reason))
 }
 
-/// Keeps the lines of frames up to `last`.
-fn cut_statistics(path: &Path, last: Option<u32>) -> Result<()> {
+fn frame_of_statistics(line: &[u8]) -> Option<u64> {
+    let value: Value = serde_json::from_slice(line).ok()?;
+    value["frame"].as_u64()
+}
+
+/// Behind time and step.
+fn frame_of_sample(line: &[u8]) -> Option<u64> {
+    let cell = line.split(|&byte| byte == b',').nth(2)?;
+    std::str::from_utf8(cell).ok()?.trim().parse().ok()
+}
+
+/// Keeps `titles` lines and those behind that are whole and of frames up to `last`.
+fn cut_lines(
+    path: &Path,
+    last: Option<u32>,
+    titles: usize,
+    frame_of: fn(&[u8]) -> Option<u64>,
+) -> Result<()> {
     let text = match fs::read(path) {
         Ok(text) => text,
         Err(reason) if reason.kind() == std::io::ErrorKind::NotFound => return Ok(()),
         Err(reason) => return Err(disk::failed(path, "read", reason)),
     };
-    let is_kept = |line: &&[u8]| {
-        let value: Value = serde_json::from_slice(line).unwrap_or_default();
-        let frame = value["frame"].as_u64();
-        line.ends_with(b"\n") && frame.is_some_and(|frame| last.is_some_and(|last| frame <= u64::from(last)))
+    let is_early = |line: &[u8]| {
+        let frame = frame_of(line);
+        frame.is_some_and(|frame| last.is_some_and(|last| frame <= u64::from(last)))
     };
-    let lines = text.split_inclusive(|&byte| byte == b'\n');
-    let kept: usize = lines.take_while(is_kept).map(<[u8]>::len).sum();
+    let lines = text.split_inclusive(|&byte| byte == b'\n').enumerate();
+    let kept =
+        lines.take_while(|&(number, line)| line.ends_with(b"\n") && (number < titles || is_early(line)));
+    let kept: usize = kept.map(|(_, line)| line.len()).sum();
     let cut = || {
         fs::OpenOptions::new()
             .write(true)

@@ -11,6 +11,7 @@ use super::particles::{ParticleFiles, ParticleOutput};
 use super::png::Pictures;
 use super::progress::{self, Progress};
 use super::recipe::Recipe;
+use super::sensors::{self, SensorFiles};
 use super::statistics::StatisticsFile;
 use super::video::{Video, VideoOutput};
 use super::{Sink, rerun};
@@ -42,6 +43,7 @@ impl Outputs {
                 .as_ref()
                 .map_or_else(Vec::new, |p| p.columns.clone()),
             columns_every: self.particles.as_ref().map_or(0, |p| p.every),
+            sensors: !scene.sensors.list.is_empty(),
             view: (self.pictures || self.video.is_some()).then_some(scene.render.view),
             ..Wanted::default()
         };
@@ -75,6 +77,18 @@ impl Outputs {
                 about,
             });
         }
+        for profile in sensors::tables(scene) {
+            files.push(match profile {
+                None => Files {
+                    name: "sensors.csv".into(),
+                    about: "a row for each sample of the sensors; units are in the first line".into(),
+                },
+                Some(number) => Files {
+                    name: format!("sensor_{}.csv", scene.sensors.list[number].name),
+                    about: "a row for each layer of each sample of a profile".into(),
+                },
+            });
+        }
         if let Some(particles) = &self.particles {
             files.extend(particles.files());
         }
@@ -103,6 +117,9 @@ impl Outputs {
         }
         if self.statistics {
             sinks.push(Box::new(StatisticsFile::open(folder.statistics())?));
+        }
+        if !scene.sensors.list.is_empty() {
+            sinks.push(Box::new(SensorFiles::open(folder.clone(), scene)?));
         }
         if let Some(particles) = &self.particles {
             let files = ParticleFiles::new(folder.clone(), particles.clone(), scene);

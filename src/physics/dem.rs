@@ -26,6 +26,7 @@ pub(super) const MODEL: Model = Model {
     sums: |_, _, _| OwnFigures::default(),
     from_state: &[],
     particle_mass: |scene| grains(&scene.matter).mass,
+    sense_walls: ("physics/dem/sense_walls", false),
     fault: Fault {
         too_long_for: "the contact's stiffness or damping; lower time.step or raise time.steps_per_contact",
         lost: "raise grains.spring",

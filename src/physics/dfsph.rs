@@ -13,6 +13,7 @@ use super::fluid::{self, FLAG, boundary, coefficients, given, kernel_file, measu
 use super::kernels;
 use super::layout::{Convergence, Dfsph, Fluid, PACKED_BYTES};
 use super::model::{Model, Request, Solver, Written};
+use super::sensors;
 use crate::gpu::{BufferPlan, Items, PassPlan, Repeat, Variant};
 use crate::neighbors::storage;
 use crate::scene::model::{FluidSolver, Slip, Wall};
@@ -42,6 +43,7 @@ pub(super) const MODEL: Model = Model {
             .is_some_and(|fluid| fluid.solver == FluidSolver::Dfsph)
     },
     plan,
+    sense_walls: ("physics/dfsph/sense_walls", true),
     parameters,
     ..fluid::MODEL
 };
@@ -222,6 +224,9 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             ),
         ],
     ));
+    solver
+        .before_search
+        .extend(request.sensors.then(|| sensors::force_pass(scene)).flatten());
     solver.before_search.extend([
         pass(
             "control",

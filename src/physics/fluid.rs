@@ -40,6 +40,7 @@ pub(super) const MODEL: Model = Model {
     sums,
     from_state: FROM_STATE,
     particle_mass,
+    sense_walls: ("physics/fluid/sense_walls", false),
     fault: FAULT,
 };
 

@@ -353,6 +353,36 @@ shared_struct! {
     }
 }
 
+shared_struct! {
+    /// What sensors look at.
+    pub struct Probe {
+        pub kind: u32,
+        pub field: u32,
+        pub target_body: u32,
+        pub threshold: f32,
+        /// Metres.
+        pub lower: [f32; 4],
+        pub upper: [f32; 4],
+        pub direction: [f32; 4],
+        /// Metres.
+        pub reach: f32,
+        /// Of a particle at rest, m³ (m² in 2D).
+        pub volume: f32,
+        /// At rest, kg/m³.
+        pub density: f32,
+        /// Share of the kernel.
+        pub least_filling: f32,
+    }
+}
+
+shared_struct! {
+    /// What a probe finds.
+    pub struct Reading {
+        pub a: [f32; 4],
+        pub b: [f32; 4],
+    }
+}
+
 /// Everything to hold against the shaders.
 pub const SHARED: &[SharedLayout] = &[
     Parameters::LAYOUT,
@@ -373,6 +403,8 @@ pub const SHARED: &[SharedLayout] = &[
     Convergence::LAYOUT,
     Dfsph::LAYOUT,
     Sums::LAYOUT,
+    Probe::LAYOUT,
+    Reading::LAYOUT,
     Occupancy::LAYOUT,
     Overflow::LAYOUT,
     crate::neighbors::Grid::LAYOUT,

@@ -10,6 +10,7 @@ pub mod kernels;
 pub mod layout;
 mod model;
 pub mod pace;
+pub mod sensors;
 
 pub use model::{FromState, MODELS, Model, OwnFigures, Request, Solver, Written, model};
 

@@ -29,6 +29,9 @@ pub struct Model {
     pub from_state: &'static [FromState],
     /// Of a particle at rest, kg.
     pub particle_mass: fn(&Scene) -> f64,
+    /// Shader that finds what particles do to walls and obstacles, for sensors; and whether that is known only while a step is
+    /// made, where its solver runs the pass itself.
+    pub sense_walls: (&'static str, bool),
     /// What it says of a particle that went wrong.
     pub fault: Fault,
 }
@@ -49,6 +52,8 @@ pub struct Request<'a> {
     pub columns: &'a [Column],
     /// Whether figures over all particles are wanted.
     pub statistics: bool,
+    /// Whether the scene's sensors are read.
+    pub sensors: bool,
     pub grid: &'a Grid,
 }
 

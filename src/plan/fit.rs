@@ -25,7 +25,7 @@ impl Plan {
         for row in &mut self.passes {
             let variant = match row.phase {
                 Phase::Observe => &of_frame,
-                Phase::Start | Phase::Step => &of_step,
+                Phase::Start | Phase::Step | Phase::Sample => &of_step,
             };
             row.demand = shaders.demand(&row.pass.shader, variant, &[&row.pass.entry])?;
         }

@@ -17,7 +17,7 @@ use crate::gpu::{BufferPlan, DISPATCHES, Demand, Items, Limits, PassPlan, Varian
 use crate::neighbors::{self, Grid, lists};
 use crate::physics::collider::Obstacles;
 use crate::physics::layout::{Clock, Guard, Occupancy, Parameters, Sums};
-use crate::physics::{self, Model, Request, dem, fields, pace};
+use crate::physics::{self, Model, Request, dem, fields, pace, sensors};
 use crate::render;
 use crate::scene::column::Column;
 use crate::scene::model::View;
@@ -36,6 +36,8 @@ pub struct Wanted {
     pub view: Option<View>,
     /// Where voxels are and how full, as boxes and as a square picture with so many texels per side.
     pub voxel_map: Option<u32>,
+    /// What the scene's sensors find.
+    pub sensors: bool,
 }
 
 /// When a pass runs.
@@ -48,6 +50,8 @@ pub enum Phase {
     Step,
     /// Once a frame.
     Observe,
+    /// Whenever the scene's sensors are sampled.
+    Sample,
 }
 
 /// A pass and when it runs.
@@ -221,10 +225,15 @@ impl Plan {
         }
         let search = neighbors::plan(scene, grid, &mut variant);
         let model = physics::model(&scene.matter);
+        let sensors = match wanted.sensors {
+            true => sensors::plan(scene, &mut variant),
+            false => sensors::Planned::default(),
+        };
         let request = Request {
             scene,
             columns: &columns,
             statistics: wanted.statistics,
+            sensors: wanted.sensors,
             grid: &search.grid,
         };
         let solver = (model.plan)(&request, &mut variant);
@@ -247,6 +256,7 @@ impl Plan {
         buffers.extend(search.buffers);
         buffers.extend(solver.buffers);
         buffers.extend(pace::plan(scene, &mut variant));
+        buffers.extend(sensors.buffers);
 
         let row = |phase| {
             move |pass: &PassPlan| PassRow {
@@ -257,6 +267,7 @@ impl Plan {
         };
         let mut passes: Vec<PassRow> = start.iter().map(row(Phase::Start)).collect();
         passes.extend(step.iter().map(row(Phase::Step)));
+        passes.extend(sensors.passes.iter().map(row(Phase::Sample)));
         passes.extend(solver.measure.iter().map(row(Phase::Observe)));
         if wanted.statistics {
             let (more_buffers, more_passes) = statistics(scene);

@@ -32,6 +32,7 @@ pub mod particle_file;
 mod ply;
 mod points;
 mod schedule;
+pub mod sensors;
 pub mod set;
 pub mod shapes;
 pub mod signed_distance;
@@ -51,6 +52,7 @@ use model::{Addressing, Cell, Dashpot, Integrator, Render, SceneFile, SlicingAxi
 use column::Column;
 use field::Field;
 use fluid::Fluid;
+use sensors::Sensors;
 use walls::Walls;
 
 /// A validated scene. Nothing after `scene::load` asks again whether a number makes sense.
@@ -76,6 +78,7 @@ pub struct Scene {
     pub schedule: Vec<Scheduled>,
     /// Fields of its particles besides those that every scene of its kind has.
     pub more_fields: Vec<Field>,
+    pub sensors: Sensors,
     pub neighbors: Neighbors,
     pub time: Time,
     /// The camera's points are in local coordinates too.

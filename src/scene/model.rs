@@ -5,6 +5,7 @@
 
 mod fluid;
 mod render;
+mod sensors;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -15,6 +16,7 @@ pub use fluid::{
     DensityFrom, Fluid, FluidSolver, Kernel, Material, NegativePressure, PressureForce, Slip, ViscosityForm,
 };
 pub use render::{Background, Camera, Color, Projection, Render, Show, Splat, View};
+pub use sensors::{Sensor, SensorField, Side};
 
 /// A point, direction or velocity: two numbers in a 2D scene, three in a 3D scene. SI units, y up, right-handed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -67,6 +69,9 @@ pub struct SceneFile {
     /// What happens at given times.
     #[serde(default)]
     pub events: Vec<Event>,
+    /// What is measured while the scene runs, and written to `sensors.csv`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sensors: Vec<Sensor>,
     /// How neighbors are found. It changes speed and memory, not what is found, unless a `pool` overflows.
     #[serde(default)]
     pub neighbors: Neighbors,
@@ -493,9 +498,15 @@ pub struct Collider {
     pub name: String,
     /// The space that it takes.
     pub shape: ColliderShape,
-    /// Motion along straight lines from point to point; before the first and after the last point it rests.
+    /// Motion from point to point; before the first and after the last point it rests.
     #[serde(default)]
     pub path: Vec<PathPoint>,
+    /// How it moves between the points of its path.
+    #[serde(default, skip_serializing_if = "Interpolation::is_linear")]
+    pub interpolation: Interpolation,
+    /// A motion to and fro, on top of what its path does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub oscillation: Option<Oscillation>,
     /// How its surface turns about the shape's center while the shape stays where it is, rad/s, counter-clockwise
     /// (about z in 3D); for spheres in fluids.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -564,6 +575,38 @@ pub struct PathPoint {
     pub at: f64,
     /// Way from where the collider's shape places it, metres.
     pub offset: Coordinates,
+}
+
+/// How a collider moves between the points of its path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Interpolation {
+    /// Along straight lines at a constant speed.
+    #[default]
+    Linear,
+    /// Along a cubic spline through the points, whose velocity and acceleration are continuous; it begins and ends at rest.
+    Spline,
+}
+
+impl Interpolation {
+    fn is_linear(&self) -> bool {
+        *self == Self::Linear
+    }
+}
+
+/// A sine in time: at time t the collider is shifted by amplitude × sin(2π t / period + phase).
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Oscillation {
+    /// Farthest shift to one side, metres.
+    pub amplitude: Coordinates,
+    /// Seconds of one motion to and fro.
+    #[schemars(range(min = 1e-9, max = 1e9))]
+    pub period: f64,
+    /// Angle that the sine begins with, degrees; at 90 the collider begins at rest, farthest to one side.
+    #[serde(default)]
+    #[schemars(range(min = -360.0, max = 360.0))]
+    pub phase: f64,
 }
 
 /// A disc (a line in 2D) that lets particles in, layer by layer, one spacing apart.
@@ -866,6 +909,12 @@ pub struct Time {
     /// sound, besides the contact's duration, viscosity and `step`. Steps land on frame times and on events. Needs
     /// neighbor lists (`neighbors.skin`).
     pub adaptive: bool,
+    /// Seconds between two samples of the sensors; one sample with each frame when left out. A sample is taken exactly then
+    /// where steps are adaptive, and otherwise at the end of the step that reaches this time. With an interval shorter than
+    /// a step, every step is sampled.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-12, max = 1e9))]
+    pub sensor_interval: Option<f64>,
 }
 
 impl Default for Time {
@@ -877,6 +926,7 @@ impl Default for Time {
             steps_per_contact: 40,
             integrator: Integrator::default(),
             adaptive: false,
+            sensor_interval: None,
         }
     }
 }

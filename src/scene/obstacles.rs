@@ -7,14 +7,16 @@ use glam::DVec3;
 use super::frame::{Frame, Report};
 use super::mesh::Mesh;
 use super::mesh::surface::Surface;
+use super::motion::{MOST_PIECES, Wave, smooth_path};
 use super::text::number;
 use super::{Collider, ColliderShape, Dimensions, color_maps, model};
 
-/// All colliders, with their motion along their own paths; `schedule` adds what events move.
+/// All colliders, with their own motion until `end` (seconds); `schedule` adds what events move.
 pub fn colliders(
     file: &model::SceneFile,
     frame: &Frame,
     folder: &Path,
+    end: f64,
     report: &mut Report,
 ) -> Vec<Collider> {
     let mut colliders = Vec::new();
@@ -44,7 +46,7 @@ pub fn colliders(
         colliders.push(Collider {
             name: given.name.clone(),
             shape,
-            path: motion(&format!("{path}.path"), &given.path, frame, report),
+            path: motion(&path, given, file.radius(), end, frame, report),
             color: color.map(|channel| f32::from(channel) / 255.0),
             visible: given.visible,
         });
@@ -53,11 +55,16 @@ pub fn colliders(
 }
 
 fn motion(
-    path: &str,
-    points: &[model::PathPoint],
+    collider: &str,
+    given: &model::Collider,
+    radius: f64,
+    end: f64,
     frame: &Frame,
     report: &mut Report,
 ) -> Vec<(f64, glam::Vec3)> {
+    let points = &given.path;
+    let path = format!("{collider}.path");
+    let sound = report.problems.len();
     for (i, pair) in points.windows(2).enumerate() {
         if pair[1].at <= pair[0].at {
             report.problem(
@@ -73,9 +80,36 @@ fn motion(
     }
     let point = |(i, point): (usize, &model::PathPoint)| {
         let offset = report.vector(&format!("{path}[{i}].offset"), &point.offset, frame.dimensions);
-        (point.at, offset.as_vec3())
+        (point.at, offset)
     };
-    points.iter().enumerate().map(point).collect()
+    let points: Vec<(f64, DVec3)> = points.iter().enumerate().map(point).collect();
+    let wave = given.oscillation.as_ref().map(|wave| Wave {
+        amplitude: report.vector(
+            &format!("{collider}.oscillation.amplitude"),
+            &wave.amplitude,
+            frame.dimensions,
+        ),
+        period: wave.period,
+        phase: wave.phase.to_radians(),
+    });
+    if report.problems.len() > sound {
+        return Vec::new();
+    }
+    let spline = given.interpolation == model::Interpolation::Spline;
+    match smooth_path(&points, spline, wave.as_ref(), radius, end) {
+        Ok(path) => path,
+        Err(pieces) => {
+            let key = if wave.is_some() { "oscillation" } else { "path" };
+            report.problem(
+                format!("{collider}.{key}"),
+                format!("this motion takes {} straight pieces", number(pieces)),
+                format!(
+                    "make it slower or smaller, or the run shorter: at most {MOST_PIECES} pieces are made"
+                ),
+            );
+            Vec::new()
+        }
+    }
 }
 
 fn shape(

@@ -99,6 +99,7 @@ impl Scene {
             colliders: Vec::new(),
             schedule: Vec::new(),
             more_fields: Vec::new(),
+            sensors: Default::default(),
             // Nothing moves, so nothing has to be followed.
             neighbors: Neighbors {
                 quarantine_distance: Some(0.0),

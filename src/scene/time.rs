@@ -30,6 +30,11 @@ pub fn frames(time: &model::Time, report: &mut Report) -> u32 {
     frames.min(MOST_FRAMES) as u32
 }
 
+/// When the last frame is, seconds.
+pub fn end(time: &model::Time) -> f64 {
+    f64::from(frames(time, &mut Report::default()) - 1) / time.fps
+}
+
 /// The step that resolves each of `contacts` (those that hold at any time of the run) and fits frames.
 pub fn of_grains(
     time: &model::Time,

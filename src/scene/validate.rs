@@ -21,7 +21,7 @@ use super::model::{
 use super::text::number;
 use super::walls::{self, Walls};
 use super::{
-    Action, Dimensions, Grains, Matter, Neighbors, Particles, Scene, Written, obstacles, schedule,
+    Action, Dimensions, Grains, Matter, Neighbors, Particles, Scene, Written, obstacles, schedule, sensors,
     time,
 };
 use crate::error::Problem;
@@ -39,7 +39,8 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
     fluid_keys::check(&file, &mut report);
     let law = file.grains.as_ref().map(|grains| Law::new(grains, &mut report));
     let mass = mass(&file, frame.dimensions);
-    let mut colliders = obstacles::colliders(&file, &frame, folder, &mut report);
+    let end = time::end(&file.time);
+    let mut colliders = obstacles::colliders(&file, &frame, folder, end, &mut report);
     // When a collider is missing for its own mistake, the others' places in the list no longer name them.
     let all_sound = colliders.len() == file.colliders.len();
     let obstacles = if all_sound { &colliders[..] } else { &[] };
@@ -48,7 +49,6 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
         bodies,
     } = bodies::fill(&file, &fillings, &frame, obstacles, folder, &mut report);
     let frames = time::frames(&file.time, &mut report);
-    let end = f64::from(frames - 1) / file.time.fps;
     let schedule = schedule::schedule(&file, &frame, law, mass, end, &mut colliders, &mut report);
     let gravity = vector(&file.gravity.0);
     let contacts: Vec<_> = law
@@ -120,6 +120,12 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
             "leave it out, or set time.integrator to `symplectic_euler`",
         );
     }
+    let sensors = sensors::sensors(
+        &file,
+        &frame,
+        if all_sound { &colliders } else { &[] },
+        &mut report,
+    );
     let neighbors = neighbors(&file, &frame, &mut report);
     let render = render(&file, &frame, &mut report);
     let known = Known {
@@ -144,6 +150,7 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
             colliders,
             schedule,
             more_fields: Vec::new(),
+            sensors,
             neighbors,
             time,
             render,

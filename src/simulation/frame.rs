@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
+use super::sensors::Sample;
 use crate::neighbors::boxes::{VoxelBox, boxes};
 use crate::neighbors::{Grid, NO_VOXEL};
 use crate::physics::Model;
@@ -45,6 +46,8 @@ pub struct Frame {
     /// RGBA, 8 bits each, sRGB, rows from the top without padding.
     pub pixels: Option<Vec<u8>>,
     pub statistics: Option<Statistics>,
+    /// What sensors found since the last frame, by time.
+    pub samples: Vec<Sample>,
     /// In order of id.
     pub columns: Vec<ColumnData>,
     pub voxels: Option<Voxels>,

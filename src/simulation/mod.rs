@@ -9,6 +9,7 @@ mod particles;
 pub mod passes;
 mod rounds;
 mod segments;
+pub mod sensors;
 pub mod state;
 mod submissions;
 
@@ -20,6 +21,7 @@ use glam::Vec3;
 
 pub use frame::{AdaptiveSteps, ColumnData, Frame, Statistics, Values, Voxels};
 pub use neighbor_lists::{NeighborCounts, NeighborLists, PairQuery};
+pub use sensors::Sample;
 pub use state::State;
 
 use crate::error::{Error, Result};
@@ -78,6 +80,8 @@ pub struct Simulation {
     last_look: u32,
     /// Particles that the last search did not follow.
     quarantined: u32,
+    /// When sensors were sampled since the last frame was sent, seconds.
+    sampled: Vec<f64>,
     /// Frame and steps that a restored state began with.
     restored: (u32, u32),
 }
@@ -91,6 +95,8 @@ struct Pending {
     growths: u32,
     lists_left_out: Option<String>,
     pass_ms: Vec<(String, f64)>,
+    /// When its samples of sensors were taken, seconds.
+    sampled: Vec<f64>,
     /// As it was; it may grow or turn before the frame arrives.
     grid: Grid,
     /// Of the staging buffer, in order.
@@ -111,10 +117,13 @@ impl Simulation {
     ///
     /// Where the device has no room for the plan's buffers, or refuses a pass.
     pub fn new(gpu: Gpu, scene: &Scene, plan: &Plan) -> Result<Self> {
-        let scene = match plan.lists_left_out {
+        let mut scene = match plan.lists_left_out {
             Some(_) => lists::without(scene),
             None => scene.clone(),
         };
+        if !plan.wanted.sensors {
+            scene.sensors = Default::default();
+        }
         let mut buffers = Buffers::default();
         for buffer in &plan.buffers {
             buffers.make(&gpu, buffer)?;
@@ -147,6 +156,7 @@ impl Simulation {
             served: rounds::USUALLY_SERVED,
             last_look: 0,
             quarantined: 0,
+            sampled: Vec::new(),
             restored: (0, 0),
             scene,
             plan: plan.clone(),
@@ -219,11 +229,15 @@ impl Simulation {
             let walls = self.walls_as_particles();
             self.add_particles(&self.scene.particles.clone(), Some(&walls))?;
             self.write_parameters(self.scene.time.step)?;
+            self.sample(0.0)?;
         } else {
             self.pace.begin_frame();
             for segment in segments(&self.scene, index - 1) {
                 self.begin_segment(&segment)?;
                 self.run_segment(&segment)?;
+                if segment.is_sampled {
+                    self.sample(segment.end_time)?;
+                }
             }
         }
         self.next_frame += 1;
@@ -427,6 +441,7 @@ impl Simulation {
             growths: std::mem::take(&mut self.growths),
             lists_left_out: self.plan.lists_left_out.clone(),
             pass_ms,
+            sampled: std::mem::take(&mut self.sampled),
             grid: self.plan.grid,
             parts: parts.clone(),
         };
@@ -476,6 +491,10 @@ impl Simulation {
                 zeroed: 0..0,
             });
         };
+        let samples = sensors::bytes(&self.scene, self.sampled.len());
+        if samples > 0 {
+            add("sensor_samples", samples);
+        }
         let wanted = &self.plan.wanted;
         if index.is_multiple_of(wanted.columns_every.max(1)) {
             for name in frame::sources(&wanted.columns) {
@@ -555,6 +574,9 @@ impl Simulation {
             lists_left_out: pending.lists_left_out,
             pixels: by_name.get("frame_pixels").map(|pixels| pixels.to_vec()),
             statistics,
+            samples: by_name.get("sensor_samples").map_or_else(Vec::new, |bytes| {
+                sensors::samples(&self.scene, &pending.sampled, bytes)
+            }),
             columns: frame::columns(&self.scene, &self.plan, &by_name),
             voxels: by_name.get("voxel_map").map(|map| {
                 let record = boxes::record(&self.scene, &pending.grid);

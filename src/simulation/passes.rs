@@ -50,6 +50,8 @@ pub struct Passes {
     /// The step after it, where steps go by twos: from the `next_` buffers to those without.
     pub step_back: Vec<Step>,
     pub observe: Vec<Step>,
+    /// Whenever sensors are sampled.
+    pub sample: Vec<Step>,
 }
 
 impl Passes {
@@ -97,6 +99,7 @@ impl Passes {
                 Vec::new()
             },
             observe: made(Phase::Observe, false)?,
+            sample: made(Phase::Sample, false)?,
         })
     }
 }

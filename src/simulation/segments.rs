@@ -1,4 +1,4 @@
-//! Cuts a frame's steps where something happens: events, and corners of obstacles' paths.
+//! Cuts a frame's steps where something happens: events, corners of obstacles' paths, and samples of sensors.
 
 use crate::scene::Scene;
 
@@ -11,6 +11,8 @@ pub struct Segment {
     /// Where steps are adaptive, about so many.
     pub steps: u32,
     pub ends_frame: bool,
+    /// Whether sensors are sampled at its end.
+    pub is_sampled: bool,
     /// Seconds.
     pub start_time: f64,
     pub end_time: f64,
@@ -45,7 +47,12 @@ pub fn segments(scene: &Scene, interval: u32) -> Vec<Segment> {
     };
     let corners = scene.colliders.iter().flat_map(|c| &c.path).map(|(at, _)| *at);
     let events = scene.schedule.iter().map(|scheduled| scheduled.time);
+    // Sensors are sampled behind the step that reaches their time, or exactly then.
+    let end = f64::from(interval + 1) / time.fps;
+    let times = scene.sensors.times(begin, end).into_iter();
+    let samples: Vec<f64> = times.map(|at| place_of(at).unwrap_or(steps)).collect();
     let mut cuts: Vec<f64> = corners.chain(events).filter_map(place_of).collect();
+    cuts.extend(&samples);
     cuts.extend([0.0, steps]);
     cuts.sort_by(f64::total_cmp);
     cuts.dedup_by(|later, earlier| *later - *earlier < NEAREST);
@@ -60,6 +67,7 @@ pub fn segments(scene: &Scene, interval: u32) -> Vec<Segment> {
     let segment = |from: f64, to: f64| Segment {
         steps: (to - from).ceil() as u32,
         ends_frame: to == steps,
+        is_sampled: samples.iter().any(|at| (at - to).abs() < NEAREST),
         start_time: begin + from * time.step,
         end_time: begin + to * time.step,
         events_before: due(from),

@@ -12,19 +12,25 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-/// A scene with everything that may be lost between two frames: an emitter, a moving obstacle, a change of gravity.
+/// A scene with everything that may be lost between two frames: an emitter, a moving obstacle, a change of gravity, samples of
+/// sensors.
 const SCENE: &str = r#"{
   "dimensions": 2,
   "domain": { "min": [-0.3, -0.3], "max": [0.3, 0.4] },
   "grains": { "radius": 0.01, "density": 1000, "spring": 2000, "restitution": 0.6 },
   "bodies": [ { "shape": { "kind": "box", "min": [-0.25, 0], "max": [0.1, 0.3] }, "jitter": 0.01, "spacing": 0.0205 } ],
   "colliders": [
-    { "shape": { "kind": "sphere", "center": [0, -0.2], "radius": 0.06 },
+    { "name": "ball", "shape": { "kind": "sphere", "center": [0, -0.2], "radius": 0.06 },
       "path": [ { "at": 0, "offset": [0, 0] }, { "at": 0.1, "offset": [0.1, 0] } ] }
   ],
   "emitters": [ { "name": "tap", "center": [0.2, 0.3], "velocity": [0, -1], "radius": 0.05 } ],
   "events": [ { "at": 0.05, "set": { "gravity": [3, -9] } } ],
-  "time": { "duration": 0.12, "fps": 200, "integrator": "velocity_verlet" },
+  "sensors": [
+    { "name": "ball", "kind": "force", "obstacle": "ball" },
+    { "name": "fastest", "kind": "extremes", "field": "speed" },
+    { "name": "layers", "kind": "profile", "axis": "y", "layers": 5 }
+  ],
+  "time": { "duration": 0.12, "fps": 200, "integrator": "velocity_verlet", "sensor_interval": 0.002 },
   "render": { "size": [160, 120] }
 }"#;
 pub const FRAMES: u32 = 25;

@@ -57,6 +57,7 @@ pub fn scene(dimensions: Dimensions, min: Vec3, max: Vec3, radius: f64, size: [u
         colliders: Vec::new(),
         schedule: Vec::new(),
         more_fields: Vec::new(),
+        sensors: Default::default(),
         neighbors: Neighbors {
             addressing: Addressing::Uniform,
             storage: Storage::Pool,

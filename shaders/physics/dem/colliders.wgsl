@@ -120,24 +120,28 @@ fn nearest_on(collider: Collider, x: Vector) -> Nearest {
     }
 }
 
-fn with_colliders(before: ContactSum, x: Vector, v: Vector) -> ContactSum {
-    var sum = before;
-    let radius = 0.5 * contact.diameter;
-    for (var c = 0u; c < arrayLength(&colliders); c++) {
-        let collider = colliders[c];
-        var offset = first(collider.offset);
+fn with_collider(before: ContactSum, collider: Collider, x: Vector, v: Vector) -> ContactSum {
+    var offset = first(collider.offset);
 #if moving_colliders
 #if adaptive_step
-        offset += first(collider.velocity) * segment_time();
+    offset += first(collider.velocity) * segment_time();
 #else
-        offset += first(collider.velocity) * (f32(clock.step_in_segment) * parameters.time_step);
+    offset += first(collider.velocity) * (f32(clock.step_in_segment) * parameters.time_step);
 #end
 #end
-        let nearest = nearest_on(collider, x - offset);
-        if nearest.distance < radius {
-            let approach = first(collider.velocity) - v;
-            sum = with_contact(sum, -nearest.outwards, radius - nearest.distance, approach, contact.wall_damping);
-        }
+    let radius = 0.5 * contact.diameter;
+    let nearest = nearest_on(collider, x - offset);
+    if nearest.distance >= radius {
+        return before;
+    }
+    let approach = first(collider.velocity) - v;
+    return with_contact(before, -nearest.outwards, radius - nearest.distance, approach, contact.wall_damping);
+}
+
+fn with_colliders(before: ContactSum, x: Vector, v: Vector) -> ContactSum {
+    var sum = before;
+    for (var c = 0u; c < arrayLength(&colliders); c++) {
+        sum = with_collider(sum, colliders[c], x, v);
     }
     return sum;
 }

@@ -68,7 +68,11 @@ fn forces_on(i: u32) -> Forces {
         for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
             let s = toward(x, j);
+#if of_one_body
+            if within(s, fluid.support) && is_sensed(j) {
+#else
             if within(s, fluid.support) && j != i {
+#end
                 let other = neighbor_at(j, s);
 #each force {force}_pair
                 {force}_pair(own, other, &forces);
@@ -79,7 +83,11 @@ fn forces_on(i: u32) -> Forces {
 #if planes
     let cells = cells_beyond(x);
     for (var number = 0u; number < cells; number++) {
-        let other = neighbor_beyond(own, beyond(x, number));
+        var cell = beyond(x, number);
+#if of_one_body
+        cell.share *= select(0.0, 1.0, is_sensed_side(x + cell.way));
+#end
+        let other = neighbor_beyond(own, cell);
 #each force {force}_pair
         {force}_pair(own, other, &forces);
 #end
@@ -88,7 +96,10 @@ fn forces_on(i: u32) -> Forces {
 #each force {force}_end
     {force}_end(own, &forces);
 #end
-    forces.acceleration = first(parameters.gravity) + (forces.push + forces.drag) / own.density;
+    forces.acceleration = (forces.push + forces.drag) / own.density;
+#if !of_one_body
+    forces.acceleration += first(parameters.gravity);
+#end
     return forces;
 }
 

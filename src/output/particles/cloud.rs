@@ -92,6 +92,7 @@ pub mod samples {
             pixels: None,
             voxels: None,
             statistics: None,
+            samples: Vec::new(),
             columns: vec![
                 column("id", Values::Unsigned(vec![0, 1])),
                 column(

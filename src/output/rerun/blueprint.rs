@@ -12,6 +12,7 @@ use ::rerun::external::re_sdk_types::blueprint::components::PlayState;
 use ::rerun::{RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
 use glam::{DMat3, DVec3};
 
+use super::sensors::quantities;
 use super::series::{Group, groups};
 use super::target::APPLICATION;
 use crate::physics;
@@ -104,6 +105,18 @@ fn arrange(view: ContainerLike, scene: &Scene, contents: &Contents) -> Container
     };
     let mut groups = groups(physics::model(&scene.matter).figures, contents.statistics);
     let mut plots: Vec<ContainerLike> = groups.by_ref().take(PLOTS).map(curves).collect();
+    let sensors: Vec<ContainerLike> = quantities(scene)
+        .into_iter()
+        .map(|(quantity, unit)| {
+            let title = format!("sensors: {}, {unit}", quantity.replace('_', " "));
+            TimeSeriesView::new(title.trim_end_matches(", ").to_owned())
+                .with_origin(format!("sensors/{quantity}"))
+                .into()
+        })
+        .collect();
+    if !sensors.is_empty() {
+        plots.insert(0, Tabs::new(sensors).into());
+    }
     if contents.statistics {
         plots.push(
             BarChartView::new("voxels by particles in them")

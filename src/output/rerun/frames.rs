@@ -11,6 +11,7 @@ use glam::{DVec3, Vec3};
 use super::budget::Share;
 use super::camera::Camera;
 use super::events::Events;
+use super::sensors;
 use super::series::{Order, PARTICLE_STEPS_PER_S, curves};
 use super::statics::{NO_VOXEL, OVER_SLOTS, collider_path};
 use crate::error::Result;
@@ -101,6 +102,7 @@ impl Frames {
         self.time = frame.time;
         let logged = self.figures(stream, frame, rate);
         logged.and_then(|()| self.texts(stream, frame)).map_err(defect)?;
+        self.sensors(stream, frame).map_err(defect)?;
         self.moves(stream).map_err(defect)?;
         if frame.index.is_multiple_of(self.share.stride) {
             self.particles(stream, frame).map_err(defect)?;
@@ -137,6 +139,23 @@ impl Frames {
             Some(statistics) => stream.log("occupancy", &occupancy(statistics)),
             None => Ok(()),
         }
+    }
+
+    /// Each sample of the sensors at its own time.
+    fn sensors(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
+        for sample in &frame.samples {
+            stream.set_duration_secs("sim_time", sample.time);
+            for curves in sensors::curves_of(&self.scene, sample) {
+                let (values, names) = self.order.arrange(&curves);
+                if let Some(names) = names {
+                    let names = names.iter().map(String::as_str);
+                    stream.log_static(curves.group.as_str(), &SeriesLines::new().with_names(names))?;
+                }
+                stream.log(curves.group, &Scalars::new(values))?;
+            }
+        }
+        stream.set_duration_secs("sim_time", frame.time);
+        Ok(())
     }
 
     fn texts(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {

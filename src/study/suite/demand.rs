@@ -49,7 +49,7 @@ pub fn of_step(scene: &Scene, plan: &Plan, rates: Rates) -> Result<BTreeMap<Stri
         let counts = match row.phase {
             Phase::Step => true,
             Phase::Start => listed,
-            Phase::Observe => false,
+            Phase::Observe | Phase::Sample => false,
         };
         if counts {
             let once = of_pass(plan, row.phase, &row.pass, rates.pairs)?;
