@@ -7,10 +7,10 @@ use glam::Vec3;
 
 use super::collider::{Obstacles, velocity_between};
 use super::dem::{bounds, has_wall};
-use super::layout::{Fluid, Material, Measure, Planes, Rim, Sums};
-use super::model::{Fault, FromState, Model, OwnFigures, Request, Solver, Written};
 use super::formulas::{self, DENSITY, FORCES, Terms};
 use super::kernels;
+use super::layout::{Fluid, Material, Measure, Planes, Rim, Sums};
+use super::model::{Fault, FromState, Model, OwnFigures, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::scene::model::{
     DensityFrom, FluidSolver, Integrator, Kernel, NegativePressure, Slip, ViscosityForm, Wall,
