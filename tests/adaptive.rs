@@ -403,7 +403,7 @@ fn grains_bounce_as_they_should() {
 
 #[test]
 fn steps_that_would_never_end_a_run_stop_it() {
-    let mut scene = falling(true, &["time.duration=0.1"]);
+    let mut scene = falling(false, &["time.duration=0.1"]);
     scene.particles = Particles {
         velocity: vec![Vec3::X * 1e9],
         ..scene.particles

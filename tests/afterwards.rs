@@ -14,7 +14,9 @@ use serde_json::Value;
 
 fn pictures(place: &Place, run: &str) -> Vec<(String, Vec<u8>)> {
     let files = place.files(run).into_iter();
-    files.filter(|(name, _)| name.ends_with(".png")).collect()
+    files
+        .filter(|(name, _)| name.starts_with("frame_") && name.ends_with(".png"))
+        .collect()
 }
 
 #[test]

@@ -8,7 +8,7 @@ use sliceflow::plan::{Plan, Wanted};
 use sliceflow::scene::Scene;
 use sliceflow::simulation::{Frame, Simulation};
 
-/// A parameter, the value that an event gives it, what the scene needs besides, and the flag that the shaders need.
+/// A parameter, the value that an event gives it, what the scene needs besides, and the flag or the formula that the shaders need.
 type Case = (
     &'static str,
     &'static str,
@@ -17,14 +17,14 @@ type Case = (
 );
 
 const CASES: &[Case] = &[
-    ("viscosity", "20", &[], Some("viscosity")),
+    ("viscosity", "20", &[], Some("central_viscosity")),
     (
         "viscosity",
         "20",
         &["fluid.viscosity_form=stress"],
-        Some("stress_form"),
+        Some("stress_viscosity"),
     ),
-    ("viscosity", "20", &["fluid.solver=sph"], Some("viscosity")),
+    ("viscosity", "20", &["fluid.solver=sph"], Some("muller_viscosity")),
     ("viscosity", "20", &["fluid.solver=dfsph"], Some("drag")),
     ("artificial_viscosity", "2", &[], Some("artificial_viscosity")),
     (
@@ -97,7 +97,11 @@ fn a_change_acts_from_its_time_on() {
         if let Some(flag) = flag {
             let composed = |changes| {
                 let plan = Plan::new(&scene(case, changes), &Limits::PROMISED, &wanted()).expect("a plan");
+                let formulas = plan.variant.lists.values().flatten();
                 plan.variant.flags.contains(*flag)
+                    || formulas
+                        .filter_map(|file| file.rsplit('/').next())
+                        .any(|formula| formula == *flag)
             };
             assert_eq!([composed(false), composed(true)], [false, true], "{what}");
         }

@@ -481,7 +481,7 @@ fn what_cannot_be_measured_is_refused_with_help() {
         ];
         let text = if side == "clamp" { GRAINS } else { SPLASH };
         let error = load::parse(text, "test.json", Path::new("."), &overrides);
-        let error = error.err().expect("no force").to_string();
+        let error = error.expect_err("no force").to_string();
         for word in words {
             assert!(error.contains(word), "{error}");
         }

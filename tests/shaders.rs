@@ -162,6 +162,11 @@ fn plans_with_sensors() -> Vec<Plan> {
         ] {
             add(common::fluid(dimensions, &[&[&*of_fluids], more].concat()));
         }
+        let alone = format!(
+            r#"sensors=[{{"name":"point","kind":"point","at":{:?}}}]"#,
+            &[0.2; 3][..dimensions]
+        );
+        add(common::fluid(dimensions, &[&*alone]));
         let of_grains = sensors(dimensions, false);
         for more in [
             "neighbors.storage=pool",

@@ -318,7 +318,7 @@ fn draw(scene: &Scene, folder: &Folder) -> Result<()> {
 
 /// Some of the samples, the first and the last among them.
 #[cfg(feature = "plots")]
-fn shown<'a, T>(samples: &'a [T]) -> impl Iterator<Item = &'a T> {
+fn shown<T>(samples: &[T]) -> impl Iterator<Item = &T> {
     const MOST: usize = 3;
     let last = samples.len() - 1;
     let shown = MOST.min(samples.len());
@@ -326,6 +326,7 @@ fn shown<'a, T>(samples: &'a [T]) -> impl Iterator<Item = &'a T> {
 }
 
 /// The name of a column in a chart: `P1`, `gate x`.
+#[cfg(any(feature = "plots", feature = "rerun"))]
 pub fn curve_name(sensor: &Sensor, output: &Output) -> String {
     match output.name.strip_suffix(output.quantity) {
         Some("") => sensor.name.clone(),
@@ -335,6 +336,7 @@ pub fn curve_name(sensor: &Sensor, output: &Output) -> String {
 }
 
 /// `velocity_x` is x, and `lowest_velocity_x` is lowest x.
+#[cfg(any(feature = "plots", feature = "rerun"))]
 fn axis_name(output: &Output) -> String {
     output
         .name

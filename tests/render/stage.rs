@@ -4,7 +4,10 @@ use glam::{DVec3, Vec3};
 use image::RgbaImage;
 use sliceflow::gpu::buffers::Usage;
 use sliceflow::gpu::{AdapterChoice, Buffers, Gpu, Variant, readback};
+use sliceflow::neighbors::NO_VOXEL;
+use sliceflow::physics::fields;
 use sliceflow::render::{Caption, Overlay, Renderer};
+use sliceflow::scene::field::FIELDS;
 use sliceflow::scene::model::{
     Addressing, Dashpot, Integrator, Render, SceneFile, Splat, Storage, View, Wall,
 };
@@ -134,7 +137,11 @@ pub fn buffers(gpu: &Gpu, scene: &Scene, particles: &Particles) -> Buffers {
 /// The plan's choices for a uniform grid with a pool.
 pub fn variant(scene: &Scene) -> Variant {
     let mut variant = Variant::default();
+    variant.modules.extend(fields::modules(FIELDS));
     variant
+        .without(&["boundary_particles", "bounded", "regions", "separated"])
+        .constant("NO_VOXEL", NO_VOXEL)
+        .constant("REGIONS_ALONG", 4)
         .flag("two_dimensional", scene.dimensions == Dimensions::Two)
         .constant("SLOTS", scene.neighbors.slots)
         .constant("REACH", 1)
