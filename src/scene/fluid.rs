@@ -248,7 +248,8 @@ impl Fluid {
     ) -> Self {
         let usual = match (self.solver, self.kernel) {
             (FluidSolver::Dfsph, _) | (_, Kernel::Muller) => ViscosityForm::Laplacian,
-            _ if free_surface => ViscosityForm::MonaghanGingold,
+            // With surface tension drops would meet walls that they do not wet at angles that are too small.
+            _ if free_surface && !self.has_surface_tension() => ViscosityForm::MonaghanGingold,
             _ => ViscosityForm::Laplacian,
         };
         // Under gravity pressure keeps particles apart, and shifting would disturb water at rest. Particles of two fluids

@@ -22,8 +22,8 @@ pub struct Fluid {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub viscosity: f64,
-    /// How viscous forces are computed; `monaghan_gingold` for a fluid of `wcsph` with a free surface and `laplacian` for
-    /// all others when left out.
+    /// How viscous forces are computed; `monaghan_gingold` for a fluid of `wcsph` with a free surface and no surface
+    /// tension, and `laplacian` for all others when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub viscosity_form: Option<ViscosityForm>,
     /// Artificial viscosity α (Monaghan 1992); keeps impacts stable. Walls along which fluid slips damp only what
