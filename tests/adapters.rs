@@ -5,6 +5,7 @@ mod common;
 use std::path::Path;
 use std::process::Command;
 
+use common::frames;
 use glam::Vec3;
 use sliceflow::error::Error;
 use sliceflow::gpu::buffers::Usage;
@@ -31,18 +32,6 @@ fn simulate(limits: &str, scene: &Scene, wanted: &Wanted) -> Simulation {
     let gpu = lesser(limits);
     let plan = Plan::new(scene, &gpu.limits, wanted).expect("a plan");
     Simulation::new(gpu, scene, &plan).expect("a simulation")
-}
-
-/// Frames up to `last`, and those under way.
-fn frames(simulation: &mut Simulation, last: u32) -> Vec<Frame> {
-    let mut frames = Vec::new();
-    while simulation.next_index() <= last {
-        frames.extend(simulation.next_frame().expect("a frame"));
-    }
-    while let Some(frame) = simulation.finish_frame().expect("a frame") {
-        frames.push(frame);
-    }
-    frames
 }
 
 fn assert_same(one: &[Frame], two: &[Frame], what: &str) {

@@ -2,6 +2,7 @@
 
 mod common;
 
+use common::frames;
 use sliceflow::gpu::{AdapterChoice, readback};
 use sliceflow::output::{
     Checkpoints, Every, Outputs, PARTICLE_FORMATS, ParticleOutput, Settings, columns_named, progress, run,
@@ -11,7 +12,7 @@ use sliceflow::scene::Scene;
 use sliceflow::scene::column::{Column, Source};
 use sliceflow::scene::field::{Field, Kind, Travels};
 use sliceflow::scene::model::View;
-use sliceflow::simulation::{Frame, Simulation, Values};
+use sliceflow::simulation::{Frame, Values};
 
 /// The row: a number that each particle is given and keeps, twice its id.
 const TAG: Field = Field {
@@ -49,17 +50,6 @@ fn wanted() -> Wanted {
         columns: vec![column()],
         ..Wanted::default()
     }
-}
-
-fn frames(simulation: &mut Simulation, last: u32) -> Vec<Frame> {
-    let mut frames = Vec::new();
-    while simulation.next_index() <= last {
-        frames.extend(simulation.next_frame().expect("a frame"));
-    }
-    while let Some(frame) = simulation.finish_frame().expect("a frame") {
-        frames.push(frame);
-    }
-    frames
 }
 
 fn assert_tags(frame: &Frame) {

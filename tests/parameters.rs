@@ -2,11 +2,11 @@
 
 mod common;
 
+use common::frames;
 use sliceflow::gpu::Limits;
 use sliceflow::output::columns_named;
 use sliceflow::plan::{Plan, Wanted};
 use sliceflow::scene::Scene;
-use sliceflow::simulation::{Frame, Simulation};
 
 /// A parameter, the value that an event gives it, what the scene needs besides, and the flag or the formula that the shaders need.
 type Case = (
@@ -59,17 +59,6 @@ fn scene((key, value, needs, _): &Case, changes: bool) -> Scene {
         overrides.push(&event);
     }
     common::fluid(2, &overrides)
-}
-
-fn frames(simulation: &mut Simulation, last: u32) -> Vec<Frame> {
-    let mut frames = Vec::new();
-    while simulation.next_index() <= last {
-        frames.extend(simulation.next_frame().expect("a frame"));
-    }
-    while let Some(frame) = simulation.finish_frame().expect("a frame") {
-        frames.push(frame);
-    }
-    frames
 }
 
 fn wanted() -> Wanted {

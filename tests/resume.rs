@@ -2,10 +2,11 @@
 
 mod common;
 
+use common::frames;
 use sliceflow::output::columns_named;
 use sliceflow::plan::Wanted;
 use sliceflow::scene::Scene;
-use sliceflow::simulation::{Frame, Simulation, State};
+use sliceflow::simulation::{Frame, State};
 
 fn wanted() -> Wanted {
     Wanted {
@@ -13,18 +14,6 @@ fn wanted() -> Wanted {
         columns: columns_named(["position", "velocity", "contacts", "pressure"]).expect("columns"),
         ..Default::default()
     }
-}
-
-/// Frames up to `last`, and those under way.
-fn frames(simulation: &mut Simulation, last: u32) -> Vec<Frame> {
-    let mut frames = Vec::new();
-    while simulation.next_index() <= last {
-        frames.extend(simulation.next_frame().expect("a frame"));
-    }
-    while let Some(frame) = simulation.finish_frame().expect("a frame") {
-        frames.push(frame);
-    }
-    frames
 }
 
 fn assert_same(one: &[Frame], two: &[Frame], what: &str) {

@@ -70,7 +70,7 @@ const fn row(file: &'static str, acts: fn(&Terms) -> bool) -> Formula {
 #[rustfmt::skip]
 pub const FORCES: &[Formula] = &[
     row("physics/fluid/forces/surroundings", |t| t.controlled && t.symmetric() || t.along_surface),
-    row("physics/fluid/forces/pressure_symmetric", |t| t.symmetric() && !t.controlled),
+    row("physics/fluid/forces/pressure_symmetric", Terms::symmetric),
     row("physics/fluid/forces/pressure_controlled", |t| t.symmetric() && t.controlled),
     row("physics/fluid/forces/pressure_monaghan", |t| t.pressure_force == PressureForce::Monaghan),
     row("physics/fluid/forces/pressure_difference", |t| t.pressure_force == PressureForce::Difference),

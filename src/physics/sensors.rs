@@ -413,7 +413,8 @@ pub fn surface_filling(scene: &Scene, fluid: &Fluid, from: Vec3, to: Vec3) -> f6
 /// a profile layer by layer. Values that nothing says anything of are NaN.
 pub fn values(scene: &Scene, row: &[Reading]) -> (u64, Vec<Vec<f64>>) {
     let Layout { sensors, .. } = layout(scene);
-    let step = u64::from(row[0].a[0].to_bits());
+    let [low, high] = [0, 1].map(|half| row[0].a[half] as u64);
+    let step = low | (high << 16);
     let of = |(sensor, first): (&Sensor, u32)| {
         let first = 1 + first as usize;
         let probes = &row[first..first + sensor.layers().unwrap_or(1) as usize];

@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use sliceflow::gpu::{AdapterChoice, Gpu};
 use sliceflow::plan::{Plan, Wanted};
 use sliceflow::scene::{Particles, Scene, load};
-use sliceflow::simulation::Simulation;
+use sliceflow::simulation::{Frame, Simulation};
 
 /// A small scene that has a bit of everything, in two or three dimensions, with overrides.
 #[allow(dead_code)]
@@ -46,6 +46,19 @@ pub fn simulate(scene: &Scene, wanted: &Wanted) -> Simulation {
     let gpu = Gpu::open(&AdapterChoice::Best, true).expect("tests need an adapter; software Vulkan will do");
     let plan = Plan::new(scene, &gpu.limits, wanted).expect("a plan");
     Simulation::new(gpu, scene, &plan).expect("a simulation")
+}
+
+/// Frames up to `last`, and those under way.
+#[allow(dead_code)]
+pub fn frames(simulation: &mut Simulation, last: u32) -> Vec<Frame> {
+    let mut frames = Vec::new();
+    while simulation.next_index() <= last {
+        frames.extend(simulation.next_frame().expect("a frame"));
+    }
+    while let Some(frame) = simulation.finish_frame().expect("a frame") {
+        frames.push(frame);
+    }
+    frames
 }
 
 /// Particles in a scene with open sides and nothing else in it.

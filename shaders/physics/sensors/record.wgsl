@@ -1,6 +1,7 @@
 // Adds up what the parts of each probe found, and writes a row of samples.
 #import common/thread
 #import physics/clock
+#import physics/sensors/group
 #import physics/sensors/probe
 
 #if swept_sensors
@@ -9,11 +10,9 @@ var<storage, read> partial_readings: array<Reading>;
 #if point_sensors
 var<storage, read> point_readings: array<Reading>;
 #end
-// Rows of one head, whose `a.x` has the bits of the number of steps, and one reading for each probe.
+// Rows of one head, whose `a.x` and `a.y` have the low and the high half of the number of steps, and one reading for each probe.
 var<storage, read_write> sensor_samples: array<Reading>;
 var<uniform> sample_row: u32;
-
-var<workgroup> thread_readings: array<Reading, GROUP_SIZE>;
 
 // One workgroup for each probe.
 @compute @workgroup_size(GROUP_SIZE)
@@ -28,19 +27,10 @@ fn record_sample(thread: Thread) {
         }
     }
 #end
-    thread_readings[thread.local_index] = reading;
-    workgroupBarrier();
-    for (var reach = GROUP_SIZE / 2u; reach > 0u; reach /= 2u) {
-        if thread.local_index < reach {
-            thread_readings[thread.local_index] =
-                add_readings(kind, thread_readings[thread.local_index], thread_readings[thread.local_index + reach]);
-        }
-        workgroupBarrier();
-    }
+    reading = group_reading(thread, kind, reading);
     if thread.local_index != 0u {
         return;
     }
-    reading = thread_readings[0];
 #if point_sensors
     if number >= FIRST_POINT_PROBE {
         reading = point_readings[number - FIRST_POINT_PROBE];
@@ -49,6 +39,8 @@ fn record_sample(thread: Thread) {
     let row = sample_row * (PROBES + 1u);
     sensor_samples[row + 1u + number] = reading;
     if number == 0u {
-        sensor_samples[row] = Reading(vec4f(bitcast<f32>(clock.step), 0.0, 0.0, 0.0), vec4f(0.0));
+        // The bits of a small whole number are those of a denormal one, which adapters may take for zero.
+        let halves = vec2f(f32(clock.step & 0xffffu), f32(clock.step >> 16u));
+        sensor_samples[row] = Reading(vec4f(halves, 0.0, 0.0), vec4f(0.0));
     }
 }

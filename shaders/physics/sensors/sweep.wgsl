@@ -1,10 +1,10 @@
 // Probes that go over all particles: SENSOR_PARTS workgroups for each of them, whose readings are added in a fixed order.
 #import common/thread
+#import physics/sensors/group
 #import physics/sensors/probe
 
 // SENSOR_PARTS of each probe.
 var<storage, read_write> partial_readings: array<Reading>;
-var<workgroup> group_readings: array<Reading, GROUP_SIZE>;
 
 struct Share {
     probe: u32, // number among the probes
@@ -28,16 +28,8 @@ fn share_of(thread: Thread, first_probe: u32) -> Share {
 // Every thread of the workgroup calls this. `probe_end` is the number behind the last probe; where groups are folded, some
 // have no probe.
 fn leave_reading(thread: Thread, share: Share, probe_end: u32, kind: u32, reading: Reading) {
-    group_readings[thread.local_index] = reading;
-    workgroupBarrier();
-    for (var reach = GROUP_SIZE / 2u; reach > 0u; reach /= 2u) {
-        if thread.local_index < reach {
-            group_readings[thread.local_index] =
-                add_readings(kind, group_readings[thread.local_index], group_readings[thread.local_index + reach]);
-        }
-        workgroupBarrier();
-    }
+    let sum = group_reading(thread, kind, reading);
     if thread.local_index == 0u && share.probe < probe_end {
-        partial_readings[share.probe * SENSOR_PARTS + share.part] = group_readings[0];
+        partial_readings[share.probe * SENSOR_PARTS + share.part] = sum;
     }
 }
