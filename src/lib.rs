@@ -27,13 +27,13 @@
 //! - `src/physics/`: solvers, each a row of the table in `src/physics/model.rs`: grains (`src/physics/dem.rs`) and obstacles,
 //!   weakly compressible fluids (`src/physics/fluid.rs`) and incompressible ones (`src/physics/dfsph.rs`) with their
 //!   smoothing kernels (`src/physics/kernels.rs`). Buffers and shader modules that fields are made into
-//!   (`src/physics/fields.rs`). Steps whose length the device chooses (`src/physics/pace.rs`). Probes of sensors, and what
+//!   (`src/physics/fields.rs`). Steps whose length the device chooses (`src/physics/step_control.rs`). Probes of sensors, and what
 //!   their readings mean (`src/physics/sensors.rs`).
 //! - `src/render/`: pictures from the simulation's own buffers: splats, colliders, slices, the pool's heatmap, legends.
 //! - `src/plan/`: scene + limits → every buffer and pass, with the reason for each. Needs no GPU. What is good enough for an
 //!   error, from what was measured (`src/plan/achieved.rs`).
 //! - `src/simulation/`: executes a plan: steps, frames, what comes back. Grids that need more room get it
-//!   (`src/simulation/growth.rs`); steps with lists are recorded in rounds (`src/simulation/rounds.rs`).
+//!   (`src/simulation/reallocation.rs`); steps with lists are recorded in rounds (`src/simulation/rounds.rs`).
 //! - `src/output/`: sinks, each fed by bounded threads, and the run that drives them (`src/output/drive.rs`); its
 //!   checkpoints, and how it goes on from them (`src/output/resume.rs`); recordings for the Rerun viewer
 //!   (`src/output/rerun.rs`). What sensors found, as tables and charts (`src/output/sensors.rs`), also afterwards from

@@ -67,7 +67,7 @@ fn falling(fluid: bool, overrides: &[&str]) -> Scene {
     };
     scene.particles.position.truncate(1);
     scene.particles.velocity = vec![Vec3::ZERO];
-    scene.particles.excess.truncate(1);
+    scene.particles.density_deviation.truncate(1);
     scene
 }
 
@@ -151,13 +151,13 @@ fn obstacles_keep_to_their_paths() {
         simulation.next_frame().expect("a frame");
         let state = simulation.save_state().expect("a state");
         let offset = offset_at(&scene.colliders[0].path, f64::from(index) / scene.time.fps);
-        let first = scene.first_wall() as usize;
+        let first = scene.first_boundary() as usize;
         let mut seen = 0;
         for (id, position) in state.ids().iter().zip(state.vectors("position").unwrap()) {
             if let Some(wall) = (*id as usize).checked_sub(first)
-                && scene.walls.body[wall] == 0
+                && scene.boundary.body[wall] == 0
             {
-                let expected = scene.walls.position[wall] + offset;
+                let expected = scene.boundary.position[wall] + offset;
                 assert!(
                     position.distance(expected) < 2e-6,
                     "frame {index}: {position} {expected}"
@@ -263,7 +263,7 @@ fn stiffness_shortens_steps() {
         ADAPTIVE,
     ];
     let mut scene = common::fluid(2, &periodic);
-    scene.particles.excess.fill(0.3);
+    scene.particles.density_deviation.fill(0.3);
     let (name, ratio) = limited(&scene);
     // 10 m/s × 1.3³ against 11 m/s.
     assert_eq!(name, "stiffness");
@@ -307,7 +307,7 @@ fn growing_changes_no_bit() {
         common::open_scene(3, &choices, position.clone(), velocity.clone())
     };
     let tight = frames(&scene("neighbors.margin=1"));
-    assert!(tight.iter().map(|frame| frame.growths).sum::<u32>() > 0);
+    assert!(tight.iter().map(|frame| frame.reallocations).sum::<u32>() > 0);
     assert!(same(&tight, &frames(&scene("neighbors.margin=4"))));
 }
 

@@ -135,7 +135,7 @@ fn schema_explains_what_runs_write() {
         explained.contains("always there") && explained.contains("interrupted"),
         "{explained}"
     );
-    assert!(json(&["schema", "--of", "run"])["properties"]["recipe"].is_object());
+    assert!(json(&["schema", "--of", "run"])["properties"]["configuration"].is_object());
     assert!(failure(&["schema", "--of", "stats", "gravity"], 2).contains("stats.jsonl"));
 }
 

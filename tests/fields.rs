@@ -132,7 +132,7 @@ fn it_is_exported() {
         scene.time.frames = 2;
         run(&scene, &settings).expect("a run");
         let file = std::fs::read(settings.folder.join("particles_000001/tag.npy")).expect("a file");
-        let expected: Vec<u32> = (0..scene.first_wall()).map(|id| 2 * id).collect();
+        let expected: Vec<u32> = (0..scene.first_boundary()).map(|id| 2 * id).collect();
         assert!(
             file.ends_with(bytemuck::cast_slice(&expected)),
             "the array ends with other numbers"
@@ -156,7 +156,7 @@ fn picture(mut scene: Scene, column: Column, range: [f64; 2]) -> Vec<u8> {
 #[test]
 fn it_is_drawn() {
     for scene in scenes() {
-        let last = f64::from(scene.first_wall() - 1);
+        let last = f64::from(scene.first_boundary() - 1);
         let id = columns_named(["id"]).expect("a column")[0];
         let by_tag = picture(scene.clone(), column(), [0.0, 2.0 * last]);
         let by_id = picture(scene.clone(), id, [0.0, last]);

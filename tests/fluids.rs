@@ -210,7 +210,7 @@ fn a_single_particle_falls_freely() {
     let (v, y) = (-steps * step, 0.2 - step * step * steps * (steps + 1.0) / 2.0);
     assert!((f64::from(found.velocity[0].y) - v).abs() < 1e-6);
     assert!((f64::from(found.position[0].y) - y).abs() < 1e-6);
-    assert_eq!(found.excess[0], 0.0);
+    assert_eq!(found.density_deviation[0], 0.0);
 }
 
 /// Pairs push and pull each other equally, and periodic sides take nothing away.
@@ -247,9 +247,9 @@ fn drops_are_under_the_airs_pressure() {
             "bodies=[{{\"shape\":{{\"kind\":\"box\",\"min\":[0.3,{bottom}],\"max\":[{right},{top}]}}}}]"
         );
         let mut scene = common::fluid(2, &[&body, "colliders=[]", "gravity=[0,0]", "time.fps=200"]);
-        let count = scene.first_wall() as usize;
+        let count = scene.first_boundary() as usize;
         assert_eq!(count, if swells { 64 } else { 2 });
-        scene.particles.excess[..count].fill(0.01);
+        scene.particles.density_deviation[..count].fill(0.01);
         let found = particles(&scene, 1);
         let fastest = found.velocity.iter().map(|v| v.length()).fold(0.0, f32::max);
         assert_eq!(fastest > 0.0, swells, "{count} particles: {fastest} m/s");
@@ -482,7 +482,7 @@ fn walls_that_slip_press_and_damp_what_comes_nearer() {
                 .map(|i| (found.velocity[i].x, found.velocity[i].y))
                 .unzip();
             assert!(x.iter().all(|x| (x - 0.3).abs() < 1e-4), "{walls}: {x:?}");
-            let pressed = found.excess.iter().fold(0.0, |most: f32, &e| most.max(e));
+            let pressed = found.density_deviation.iter().fold(0.0, |most: f32, &e| most.max(e));
             (y.iter().sum::<f32>() / y.len() as f32, pressed)
         });
         [pressed, damped - speed]
@@ -632,11 +632,12 @@ fn a_jet_fills_a_tank() {
             "time.fps=1",
         ],
     );
-    let emitted = scene.first_wall() as f64;
+    let emitted = scene.first_boundary() as f64;
     assert_eq!(emitted, 60.0, "three a layer, twenty layers of 0.05 m in 2 s");
     let found = particles(&scene, scene.time.frames - 1);
     assert_eq!(found.len() as f64, emitted);
-    let spread = found.excess.iter().map(|e| e.abs()).sum::<f32>() / found.excess.len() as f32;
+    let spread =
+        found.density_deviation.iter().map(|e| e.abs()).sum::<f32>() / found.density_deviation.len() as f32;
     assert!(spread < 0.02, "density varies by {spread} on average");
     // Half of it lies below the height that all of it fills.
     let height = emitted * scene.fluid().expect("a fluid").volume(scene.dimensions);

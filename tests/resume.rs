@@ -132,7 +132,7 @@ fn adaptive_steps_go_on() {
         let thrown = r#"bodies=[{"shape":{"kind":"box","min":[0,0.05],"max":[0.4,0.4]},"velocity":[3,-5]}]"#;
         let scene = common::fluid(2, &[adaptive, thrown, integrator, "time.fps=60"]);
         let state = halves(&scene, &format!("fluid, {integrator}"));
-        assert!(state.buffer("pace").is_some());
+        assert!(state.buffer("step_control").is_some());
     }
     halves(&common::fluid(2, &["fluid.solver=dfsph", "time.fps=60"]), "dfsph");
 }
@@ -145,9 +145,9 @@ fn a_grid_that_grows_goes_on() {
         let grid = format!("neighbors.addressing={addressing}");
         let scene = common::open_scene(3, &[&grid], position, velocity);
         let whole = frames(&mut common::simulate(&scene, &wanted()), 6);
-        let growths = |frames: &[Frame]| frames.iter().map(|frame| frame.growths).sum::<u32>();
-        assert!(growths(&whole[..=3]) > 0, "{addressing}");
-        assert!(growths(&whole[4..]) > 0, "{addressing}");
+        let reallocations = |frames: &[Frame]| frames.iter().map(|frame| frame.reallocations).sum::<u32>();
+        assert!(reallocations(&whole[..=3]) > 0, "{addressing}");
+        assert!(reallocations(&whole[4..]) > 0, "{addressing}");
         halves(&scene, &format!("{addressing}, growing"));
     }
 }

@@ -255,7 +255,7 @@ fn a_variant_has_a_folder_of_its_own_and_goes_on_too() {
     assert_ne!(other[&position(14)], before[&position(14)]);
     assert!(place.files("whole") == before, "the first run is as it was");
     let manifest = place.manifest("other");
-    assert_eq!(manifest["recipe"]["first_frame"], 13);
+    assert_eq!(manifest["configuration"]["first_frame"], 13);
     assert_eq!(manifest["frames_done"], 12);
 
     let vain = [

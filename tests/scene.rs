@@ -364,7 +364,7 @@ fn fluid_fills_its_boxes_from_wall_to_wall() {
     for (spacing, counts) in [("0.0366", [34, 15, 27]), ("0.05", [25, 11, 20])] {
         let scene = scene(&[&format!("fluid.spacing={spacing}")]);
         let number: usize = counts.iter().product();
-        assert_eq!(scene.first_wall() as usize, number, "{spacing}");
+        assert_eq!(scene.first_boundary() as usize, number, "{spacing}");
         let water = &scene.positions()[..number];
         let (low, high) = water.iter().fold((Vec3::MAX, Vec3::MIN), |(low, high), p| {
             (low.min(*p), high.max(*p))
@@ -401,14 +401,14 @@ fn fluid_fills_its_boxes_from_wall_to_wall() {
         "fluid.spacing=0.05",
         "bodies[0].shape.max=[3.192,0.54999998,0.99999998]",
     ]);
-    assert_eq!(nearly.first_wall(), 24 * 11 * 20);
+    assert_eq!(nearly.first_boundary(), 24 * 11 * 20);
     assert_eq!(nearly.radius(), 0.025);
     let vortices = |spacing: &str| {
         let overrides = [format!("fluid.spacing={spacing}")];
         load::load(Path::new("taylor_green_3d"), &overrides).unwrap()
     };
     for spacing in ["0.39269908", "0.39269908169872414", "0.3926990817"] {
-        assert_eq!(vortices(spacing).first_wall(), 16 * 16 * 16, "{spacing}");
+        assert_eq!(vortices(spacing).first_boundary(), 16 * 16 * 16, "{spacing}");
     }
 }
 
@@ -425,7 +425,7 @@ fn boxes_that_share_a_spacing_stay_whole() {
         ]
     });
     let scene = valid(&given, &[]);
-    assert_eq!(scene.first_wall(), 25 + 25);
+    assert_eq!(scene.first_boundary(), 25 + 25);
     assert_eq!(scene.notes.len(), 3, "{:?}", scene.notes);
     assert!(
         scene.notes[1].contains("bodies[0]: its sides are not whole numbers of spacings"),

@@ -145,7 +145,7 @@ fn water_at_rest_has_its_pressures_and_weighs_on_the_floor() {
             assert_near(found[0], depth * weight, tolerance, "mean pressure of a layer");
             assert_eq!(
                 found[1],
-                f64::from(scene.first_wall()) / 3.0,
+                f64::from(scene.first_boundary()) / 3.0,
                 "particles of a layer"
             );
         }
@@ -157,7 +157,7 @@ fn water_at_rest_has_its_pressures_and_weighs_on_the_floor() {
             1e-3 * spacing,
             "rightmost particle",
         );
-        assert_eq!(water[2 * dimensions], f64::from(scene.first_wall()));
+        assert_eq!(water[2 * dimensions], f64::from(scene.first_boundary()));
         let nothing = value("nothing");
         assert!(nothing[0].is_nan() && nothing[1].is_nan() && nothing[2] == 0.0);
     }
@@ -205,7 +205,7 @@ fn a_uniform_stream_is_seen_as_such() {
             assert_near(layer[2], 0.125, 1e-5, "mean velocity");
         }
         let particles: f64 = value("profile").chunks(4).map(|layer| layer[3]).sum();
-        assert_eq!(particles, f64::from(scene.first_wall()));
+        assert_eq!(particles, f64::from(scene.first_boundary()));
     }
 }
 

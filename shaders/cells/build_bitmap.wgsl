@@ -2,7 +2,7 @@
 // number of bits before each word.
 #import common/workgroup_scan
 #import cells/next_voxel
-#import cells/growth
+#import cells/reallocation
 #import cells/row_table
 
 // Bits while they are set; zero between searches.

@@ -2,7 +2,7 @@
 // places by prefix sums.
 #import common/workgroup_scan
 #import cells/next_voxel
-#import cells/growth
+#import cells/reallocation
 #import cells/extent
 
 // Two values a slice: lowest and highest w.

@@ -2,7 +2,7 @@
 // prefix sum over the slices' voxel counts (Eq. 3).
 #import common/workgroup_scan
 #import cells/next_voxel
-#import cells/growth
+#import cells/reallocation
 #import cells/extent
 #if regions
 #import cells/regions

@@ -1,6 +1,6 @@
 // Counts the particles that the search does not follow, for addressings that have no other look at all particles.
 #import cells/next_voxel
-#import cells/growth
+#import cells/reallocation
 
 @compute @workgroup_size(GROUP_SIZE)
 fn count_quarantined(thread: Thread) {

@@ -5,7 +5,7 @@ struct Parameters {
     particle_count: u32,
     time_step: f32, // s
     free_count: u32, // of particles that are no boundary particles
-    first_wall: u32, // ids from here on are boundary particles
+    first_boundary: u32, // ids from here on are boundary particles
 }
 
 var<uniform> parameters: Parameters;

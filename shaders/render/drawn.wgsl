@@ -1,8 +1,8 @@
 // Which particles pictures show: all but boundary particles.
 #import render/state
 
-#import physics/fluid/walls
+#import physics/fluid/boundary_particles
 
 fn is_drawn(i: u32) -> bool {
-    return !is_wall(i);
+    return !is_boundary(i);
 }

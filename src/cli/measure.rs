@@ -42,7 +42,7 @@ pub fn main(args: &Args) -> Result<()> {
         Some(path) => vec![format!("sensors={}", sensors(path)?)],
         None => Vec::new(),
     };
-    let scene = recorded.recipe()?.scene(&more)?;
+    let scene = recorded.configuration()?.scene(&more)?;
     let found = measure_files(&args.run, &scene)?;
     if !found.left_out.is_empty() {
         args.quiet.tell(&format!(

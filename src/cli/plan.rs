@@ -127,8 +127,8 @@ impl<'a> Report<'a> {
             "storage_buffers": self.plan.most_storage_buffers().1,
             "dimensions": scene.dimensions.count(),
             "particles_at_start": scene.particles.len(),
-            "particles": scene.first_wall(),
-            "boundary_particles": scene.walls.len(),
+            "particles": scene.first_boundary(),
+            "boundary_particles": scene.boundary.len(),
             "grid": grid::name(&scene.neighbors),
             "frames": scene.time.frames,
             "fps": scene.time.fps,
@@ -160,13 +160,13 @@ impl fmt::Display for Report<'_> {
             .as_deref()
             .unwrap_or("none here; planned for what WebGPU promises everywhere");
         writeln!(f, "scene      {}, {}D", scene.name, scene.dimensions.count())?;
-        let free = u64::from(scene.first_wall());
+        let free = u64::from(scene.first_boundary());
         write!(f, "particles  {}", count(free))?;
         match scene.particles.len() as u64 {
             start if start == free => {}
             start => write!(f, " at the end, {} at the start", count(start))?,
         }
-        match scene.walls.len() as u64 {
+        match scene.boundary.len() as u64 {
             0 => writeln!(f)?,
             walls => writeln!(f, ", and {} boundary particles", count(walls))?,
         }

@@ -99,7 +99,7 @@ impl Proposal {
                 "spacing_m": fluid.map(|fluid| fluid.spacing),
                 "step_s": self.scene.time.step,
                 "step_adaptive": self.scene.time.adaptive.is_some(),
-                "particles": self.scene.first_wall(),
+                "particles": self.scene.first_boundary(),
                 "set": self.set,
             },
             "basis": self.advice,
@@ -121,7 +121,7 @@ impl fmt::Display for Proposal {
             metres(fluid.spacing),
             advice.across,
             metres(advice.length),
-            count(scene.first_wall().into())
+            count(scene.first_boundary().into())
         )?;
         let adaptive = scene.time.adaptive.is_some();
         writeln!(

@@ -49,12 +49,12 @@ Examples:
 
 pub fn main(args: &Args) -> Result<()> {
     let recorded = Recorded::read(&args.run)?;
-    let recipe = recorded.recipe()?;
-    let (mut outputs, timings) = run::recorded(&recipe.arguments)?;
+    let configuration = recorded.configuration()?;
+    let (mut outputs, timings) = run::recorded(&configuration.arguments)?;
     outputs.checkpoints = args.checkpoints.or(outputs.checkpoints);
     let mut overrides = args.set.clone();
     if let Some(frames) = args.frames {
-        let fps = recipe.scene(&overrides)?.time.fps;
+        let fps = configuration.scene(&overrides)?.time.fps;
         overrides.push(format!("time.duration={:e}", duration(frames, fps)));
     }
     let folder = match (&args.out, args.branch_at) {

@@ -178,7 +178,7 @@ impl Grid {
 /// Corners of the domain and of the layers of boundary particles beyond its sides, metres.
 fn searched(scene: &Scene) -> (DVec3, DVec3) {
     let depth = |axis: usize, end: usize| match scene.domain.sides[axis][end] {
-        Wall::Particles if axis < scene.dimensions.count() => scene.walls.depth,
+        Wall::Particles if axis < scene.dimensions.count() => scene.boundary.depth,
         _ => 0.0,
     };
     let [below, beyond] = [0, 1].map(|end| DVec3::from([0, 1, 2].map(|axis| depth(axis, end))));

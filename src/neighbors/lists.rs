@@ -30,7 +30,7 @@ pub fn every_step(scene: &Scene) -> bool {
 
 /// Whether boundary particles stand at the end of each list, for a solver whose loops leave them out.
 fn walls_apart(scene: &Scene) -> bool {
-    every_step(scene) && !scene.walls.is_empty()
+    every_step(scene) && !scene.boundary.is_empty()
 }
 
 /// Numbers that a list begins with: how many neighbors it has, boundary particles for themselves where they stand apart.
@@ -49,7 +49,7 @@ pub fn buffers(scene: &Scene, length: u32) -> Vec<BufferPlan> {
     let every_step = every_step(scene);
     // Boundary particles, which stand behind the others, have no lists there.
     let listed = match every_step && storage::row(scene.neighbors.storage).sorts {
-        true => u64::from(scene.first_wall()),
+        true => u64::from(scene.first_boundary()),
         false => particles,
     };
     // Rows are interleaved by so many.

@@ -204,7 +204,7 @@ impl Search {
             flags: Vec::new(),
             constants: Vec::new(),
             notes: Vec::new(),
-            separated: storage.sorts && !scene.walls.is_empty(),
+            separated: storage.sorts && !scene.boundary.is_empty(),
             grid,
         };
         if search.separated {

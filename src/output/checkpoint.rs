@@ -15,7 +15,7 @@ use crate::error::Result;
 use crate::scene::Dimensions;
 use crate::simulation::State;
 
-const MAGIC: &[u8] = b"sliceflow checkpoint 2\n";
+const MAGIC: &[u8] = b"sliceflow checkpoint 3\n";
 const CHECKSUM_BYTES: usize = 32;
 
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +27,7 @@ pub struct Checkpoint {
 /// What a run has besides the device's state.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct About {
-    /// Of the run that wrote it; see [`super::recipe::Recipe`].
+    /// Of the run that wrote it; see [`super::configuration::Configuration`].
     pub run_id: String,
     /// Of the program.
     pub version: String,

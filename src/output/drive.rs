@@ -5,13 +5,13 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::checkpoint::{About, Checkpoint};
+use super::configuration::Configuration;
 use super::folder::Folder;
 use super::forecast::particles;
 use super::health::Health;
 use super::keeper::Keeper;
 use super::manifest::Manifest;
 use super::progress::Progress;
-use super::recipe::Recipe;
 use super::run::Settings;
 use super::stopping::Stopping;
 use super::tally::Tally;
@@ -35,7 +35,7 @@ pub(super) struct Launch<'a> {
     pub settings: &'a Settings,
     pub folder: Arc<Folder>,
     pub progress: Progress,
-    pub recipe: Recipe,
+    pub configuration: Configuration,
     pub start: Start,
     /// Seconds that earlier sittings took.
     pub wall_s: f64,
@@ -69,13 +69,13 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         settings,
         folder,
         mut progress,
-        recipe,
+        configuration,
         start,
         wall_s,
     } = launch;
     let gpu = open(settings, &progress)?;
     let about = About {
-        run_id: recipe.run_id.clone(),
+        run_id: configuration.run_id.clone(),
         version: VERSION.into(),
         adapter: describe(&gpu.adapter),
         particle_steps: 0,
@@ -91,7 +91,7 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
     if let Some(note) = settings.outputs.video.as_ref().and_then(|v| v.note(scene)) {
         progress.note(&note);
     }
-    let first = recipe.first_frame;
+    let first = configuration.first_frame;
     progress.note(&format!(
         "{} frames go to {}, about {}",
         scene.time.frames - first,
@@ -124,7 +124,7 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         health = was.health.clone();
         warn_of_other_machine(was, &about, &progress);
     }
-    let pinned = recipe.variant_of.is_some().then_some(first);
+    let pinned = configuration.variant_of.is_some().then_some(first);
     let behind = match &start {
         Start::Behind(checkpoint) => Some(checkpoint.state.frame),
         _ => None,
@@ -137,7 +137,7 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         &settings.command_line,
         settings.outputs.files(scene),
     );
-    manifest.recipe = Some(recipe);
+    manifest.configuration = Some(configuration);
     let stopping = Stopping::default();
     stopping.listen(&progress);
     // Before any other file: from here on a run that dies can be resumed.

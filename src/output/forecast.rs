@@ -77,7 +77,7 @@ pub fn line(points: &[[f64; 2]]) -> Option<[f64; 2]> {
 
 /// How many particles there are when each frame is made, boundary particles included.
 pub fn particles(scene: &Scene) -> Vec<f64> {
-    let start = scene.particles.len() + scene.walls.len();
+    let start = scene.particles.len() + scene.boundary.len();
     let at = |frame: u32| {
         let time = f64::from(frame) / scene.time.fps;
         let added = scene.schedule.iter().take_while(|due| due.time < time);

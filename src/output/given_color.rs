@@ -56,7 +56,7 @@ fn of_state(scene: &Scene, state: &State) -> Option<Vec<f32>> {
         _ => bytemuck::pod_collect_to_vec(found),
     };
     let ids = state.ids();
-    let mut values = vec![0.0; ids.len().checked_sub(scene.walls.len())?];
+    let mut values = vec![0.0; ids.len().checked_sub(scene.boundary.len())?];
     for (slot, &id) in ids.iter().enumerate() {
         // Boundary particles have the highest ids.
         let Some(value) = values.get_mut(id as usize) else {

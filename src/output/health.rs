@@ -14,7 +14,7 @@ pub struct Health {
     overflow: u64,
     overlap_told: bool,
     quarantine_told: bool,
-    growths: u32,
+    reallocations: u32,
     /// Told in every sitting.
     #[serde(skip)]
     lists_told: bool,
@@ -46,7 +46,7 @@ impl Health {
             self.lists_told = true;
             warnings.push(format!("frame {}: {why}", frame.index));
         }
-        self.growths += frame.growths;
+        self.reallocations += frame.reallocations;
         let overlap = frame.statistics.map_or(0.0, |statistics| statistics.max_overlap);
         if overlap > LARGEST_OVERLAP && !self.overlap_told {
             self.overlap_told = true;
@@ -71,11 +71,11 @@ impl Health {
 
     /// What is good to know when the run is over.
     pub fn note(&self) -> Option<String> {
-        (self.growths > 0).then(|| {
+        (self.reallocations > 0).then(|| {
             format!(
                 "the grid's buffers were made larger {} times, and the steps concerned were made again; \
                  a higher neighbors.margin avoids that",
-                self.growths
+                self.reallocations
             )
         })
     }

@@ -8,8 +8,8 @@ use serde::Serialize;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
+use super::configuration::{Configuration, hex};
 use super::memory::peak_resident_bytes;
-use super::recipe::{Recipe, hex};
 use super::tally::Tally;
 use super::{clock, disk};
 use crate::error::{Error, Result};
@@ -70,7 +70,7 @@ pub struct Manifest<'a> {
     pub scene: &'a SceneFile,
     /// What `sliceflow resume` needs to make the run again; absent where nothing was simulated.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub recipe: Option<Recipe>,
+    pub configuration: Option<Configuration>,
     /// Folder of the run whose particles `sliceflow render` drew; absent elsewhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drawn_from: Option<PathBuf>,
@@ -134,8 +134,8 @@ impl<'a> Manifest<'a> {
             peak_resident_bytes: None,
             files,
             adapter: Identity::of(&gpu.adapter),
-            particles: scene.first_wall(),
-            boundary_particles: scene.walls.len() as u32,
+            particles: scene.first_boundary(),
+            boundary_particles: scene.boundary.len() as u32,
             seed: scene.file.seed,
             fps: scene.time.fps,
             step_s: scene.time.step,
@@ -145,7 +145,7 @@ impl<'a> Manifest<'a> {
             notes: &scene.notes,
             scene_sha256: hex(&Sha256::digest(text)),
             scene: &scene.file,
-            recipe: None,
+            configuration: None,
             drawn_from: None,
             plan,
             path,

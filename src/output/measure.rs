@@ -190,7 +190,7 @@ fn burst(scene: &Scene, adapter: &AdapterChoice) -> Result<Option<Burst>> {
             break;
         }
     }
-    Ok(Burst::new(looks, scene.walls.len()))
+    Ok(Burst::new(looks, scene.boundary.len()))
 }
 
 #[cfg(test)]

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::checkpoint::Checkpoint;
+use super::configuration::Recorded;
 use super::particles::{FORMATS, found};
-use super::recipe::Recorded;
 use super::rewind::checkpoints;
 use crate::error::{Error, Result};
 use crate::scene::npy::Array;

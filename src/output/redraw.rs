@@ -5,13 +5,13 @@ use std::sync::Arc;
 use glam::{DVec3, Vec3};
 use serde_json::Value;
 
+use super::configuration::Recorded;
 use super::drive::open;
 use super::folder::Folder;
 use super::frame_range::FrameRange;
 use super::manifest::Manifest;
 use super::progress::Progress;
 use super::read_back::{ReadBack, Snapshot};
-use super::recipe::Recorded;
 use super::run::Settings;
 use super::stopping::Stopping;
 use super::tally::Tally;
@@ -40,9 +40,9 @@ pub fn redraw(
     range: FrameRange,
     settings: &Settings,
 ) -> Result<()> {
-    let recipe = recorded.recipe()?;
-    let mut scene = recipe.scene(overrides)?;
-    check_changes(&recipe.scene(&[])?, &scene)?;
+    let configuration = recorded.configuration()?;
+    let mut scene = configuration.scene(overrides)?;
+    check_changes(&configuration.scene(&[])?, &scene)?;
     // Nothing is simulated that they could measure.
     scene.sensors = Default::default();
     if let Some(video) = &settings.outputs.video {
@@ -57,8 +57,8 @@ pub fn redraw(
             is_given &= given_color::values(&scene, &snapshot).is_some();
             refusal = refusal.and_then(|()| check_color(&scene, &snapshot, frame));
             if snapshot.state.is_none() {
-                let free = scene.first_wall().max(snapshot.particles() as u32);
-                scene.capacity = free + scene.walls.len() as u32;
+                let free = scene.first_boundary().max(snapshot.particles() as u32);
+                scene.capacity = free + scene.boundary.len() as u32;
             }
             frames.push(frame);
         }
@@ -71,7 +71,7 @@ pub fn redraw(
     } else {
         refusal?;
     }
-    let made = recipe.first_frame..recipe.first_frame + recorded.frames_done;
+    let made = configuration.first_frame..configuration.first_frame + recorded.frames_done;
     if frames.is_empty() && !made.clone().any(|frame| range.contains(frame)) {
         return Err(Error::usage(
             "the run has none of these frames",

@@ -6,11 +6,11 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use super::checkpoint::Checkpoint;
+use super::configuration::{Configuration, Recorded};
 use super::drive::{Launch, Start, drive, open};
 use super::folder::Folder;
 use super::interrupt;
 use super::progress::Progress;
-use super::recipe::{Recipe, Recorded};
 use super::rewind::checkpoints;
 use super::run::Settings;
 use super::stopping::Stopping;
@@ -22,14 +22,14 @@ use crate::simulation::{Simulation, State};
 /// Goes on with a run where it stopped: in its own folder, behind its newest checkpoint that is whole. `more` are
 /// overrides that make it longer or shorter (`time.duration`). Without a checkpoint it begins anew.
 pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Result<()> {
-    let mut recipe = recorded.recipe()?.clone();
-    let mut scene = recipe.scene_unchanged(more)?;
-    recipe.overrides.extend_from_slice(more);
+    let mut configuration = recorded.configuration()?.clone();
+    let mut scene = configuration.scene_unchanged(more)?;
+    configuration.overrides.extend_from_slice(more);
     let folder = Arc::new(Folder::existing(&recorded.folder)?);
     let progress = Progress::new(settings.progress, scene.time.frames);
-    let first = recipe.first_frame;
+    let first = configuration.first_frame;
     let frames = scene.time.frames;
-    let newest = newest(&recorded.folder, &recipe, u32::MAX, &progress)?;
+    let newest = newest(&recorded.folder, &configuration, u32::MAX, &progress)?;
     let made = match &newest {
         Some(checkpoint) => checkpoint.state.frame + 1,
         None => first,
@@ -56,7 +56,7 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
             scene.capacity = checkpoint.state.capacity(&scene);
             Start::Behind(Box::new(checkpoint))
         }
-        None if recipe.variant_of.is_some() => {
+        None if configuration.variant_of.is_some() => {
             return Err(Error::usage(
                 "the checkpoint that this variant began with is gone or damaged",
                 "make the variant again with --branch-at",
@@ -68,7 +68,13 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
         }
     };
     let next = start.state().map_or(0, |state| state.frame + 1);
-    let settings = part_from(settings, next, recipe.variant_of.is_some(), &recipe, &progress);
+    let settings = part_from(
+        settings,
+        next,
+        configuration.variant_of.is_some(),
+        &configuration,
+        &progress,
+    );
     if let Some(video) = &settings.outputs.video {
         // What an earlier attempt left of this part is made again.
         video.check(true)?;
@@ -78,7 +84,7 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
         settings: &settings,
         folder,
         progress,
-        recipe,
+        configuration,
         start,
         wall_s: recorded.wall_s,
     })
@@ -86,12 +92,12 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
 
 /// Starts a variant of a run from its frame `frame`, changed by `overrides`, in the folder of `settings`.
 pub fn branch(recorded: &Recorded, frame: u32, overrides: &[String], settings: &Settings) -> Result<()> {
-    let recipe = recorded.recipe()?;
-    let mut old = recipe.scene_unchanged(&[])?;
-    let mut scene = recipe.scene(overrides)?;
-    check_variant(recipe, &old, &scene, frame)?;
+    let configuration = recorded.configuration()?;
+    let mut old = configuration.scene_unchanged(&[])?;
+    let mut scene = configuration.scene(overrides)?;
+    check_variant(configuration, &old, &scene, frame)?;
     let progress = Progress::new(settings.progress, scene.time.frames);
-    let settings = &part_from(settings, frame, true, recipe, &progress);
+    let settings = &part_from(settings, frame, true, configuration, &progress);
     if let Some(video) = &settings.outputs.video {
         video.check(settings.force)?;
     }
@@ -102,8 +108,8 @@ pub fn branch(recorded: &Recorded, frame: u32, overrides: &[String], settings: &
     for warning in overruled(&old, &scene, frame) {
         progress.warn(&warning);
     }
-    let newest = newest(&recorded.folder, recipe, frame, &progress)?;
-    if newest.is_none() && recipe.variant_of.is_some() {
+    let newest = newest(&recorded.folder, configuration, frame, &progress)?;
+    if newest.is_none() && configuration.variant_of.is_some() {
         return Err(Error::usage(
             "the checkpoint that this run began with is gone or damaged",
             "branch from the run that it is a variant of",
@@ -111,7 +117,7 @@ pub fn branch(recorded: &Recorded, frame: u32, overrides: &[String], settings: &
     }
     let state = reach(&mut old, newest, frame, settings, &progress)?.with_origin(scene.origin);
     scene.capacity = state.capacity(&scene);
-    let variant = Recipe::new(&scene, &recipe.arguments)?;
+    let variant = Configuration::new(&scene, &configuration.arguments)?;
     let from = std::path::absolute(&recorded.folder).unwrap_or_else(|_| recorded.folder.clone());
     progress.note(&format!(
         "a variant of {} from frame {frame} on",
@@ -122,8 +128,8 @@ pub fn branch(recorded: &Recorded, frame: u32, overrides: &[String], settings: &
         settings,
         folder,
         progress,
-        recipe: Recipe {
-            working_folder: recipe.working_folder.clone(),
+        configuration: Configuration {
+            working_folder: configuration.working_folder.clone(),
             first_frame: frame,
             variant_of: Some(from),
             ..variant
@@ -139,11 +145,11 @@ fn part_from(
     settings: &Settings,
     first: u32,
     is_variant: bool,
-    recipe: &Recipe,
+    configuration: &Configuration,
     progress: &Progress,
 ) -> Settings {
     let folder_of = |path: &Path| match path.parent() {
-        Some(parent) if !is_variant => recipe.working_folder.join(parent),
+        Some(parent) if !is_variant => configuration.working_folder.join(parent),
         _ => settings.folder.clone(),
     };
     let mut part = settings.clone();
@@ -165,8 +171,8 @@ fn part_from(
     part
 }
 
-fn check_variant(recipe: &Recipe, old: &Scene, scene: &Scene, frame: u32) -> Result<()> {
-    let (first, last) = (recipe.first_frame, old.time.frames - 1);
+fn check_variant(configuration: &Configuration, old: &Scene, scene: &Scene, frame: u32) -> Result<()> {
+    let (first, last) = (configuration.first_frame, old.time.frames - 1);
     if !(first..=last).contains(&frame) {
         return Err(Error::usage(
             format!("the run has no frame {frame}"),
@@ -224,13 +230,18 @@ fn overruled(old: &Scene, scene: &Scene, frame: u32) -> Vec<String> {
 }
 
 /// The newest whole checkpoint of a run at or before a frame; what is wrong with newer ones is told.
-fn newest(folder: &Path, recipe: &Recipe, until: u32, progress: &Progress) -> Result<Option<Checkpoint>> {
+fn newest(
+    folder: &Path,
+    configuration: &Configuration,
+    until: u32,
+    progress: &Progress,
+) -> Result<Option<Checkpoint>> {
     for (frame, path) in checkpoints(folder)?.into_iter().rev() {
         if frame > until {
             continue;
         }
         let wrong = match Checkpoint::read(&path) {
-            Ok(read) if read.about.run_id != recipe.run_id => "belongs to another run".to_owned(),
+            Ok(read) if read.about.run_id != configuration.run_id => "belongs to another run".to_owned(),
             Ok(read) if read.state.frame != frame => "has the name of another frame".to_owned(),
             Ok(read) => return Ok(Some(read)),
             Err(wrong) => wrong,

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::configuration::Configuration;
 use super::drive::{Launch, Start, drive};
 use super::folder::Folder;
 use super::keeper::{Checkpoints, Every};
@@ -10,7 +11,6 @@ use super::manifest::Files;
 use super::particles::{ParticleFiles, ParticleOutput};
 use super::png::Pictures;
 use super::progress::{self, Progress};
-use super::recipe::Recipe;
 use super::sensors::{self, SensorFiles};
 use super::statistics::StatisticsFile;
 use super::video::{Video, VideoOutput};
@@ -161,13 +161,13 @@ pub fn run(scene: &Scene, settings: &Settings) -> Result<()> {
     }
     let folder = Arc::new(Folder::open(&settings.folder, settings.force)?);
     let progress = Progress::new(settings.progress, scene.time.frames);
-    let recipe = Recipe::new(scene, &settings.command_line)?;
+    let configuration = Configuration::new(scene, &settings.command_line)?;
     drive(Launch {
         scene,
         settings,
         folder,
         progress,
-        recipe,
+        configuration,
         start: Start::Beginning,
         wall_s: 0.0,
     })

@@ -63,7 +63,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         scene, statistics, ..
     } = request;
     let fluid = given(&scene.matter);
-    let walls = !scene.walls.is_empty();
+    let walls = !scene.boundary.is_empty();
     let moving = walls && scene.colliders.iter().any(|collider| !collider.path.is_empty());
     let faces = has_wall(scene, Wall::Particles);
     let rim = faces && has_wall(scene, Wall::Open);
@@ -96,7 +96,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     };
     let each = u64::from(scene.capacity);
     let listed = match storage::row(scene.neighbors.storage).sorts {
-        true => u64::from(scene.first_wall()),
+        true => u64::from(scene.first_boundary()),
         false => each,
     };
     solver.buffers.extend([
@@ -278,7 +278,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         let why = "boundary particles move with their bodies";
         solver
             .before_search
-            .push(pass("move_walls", "move_walls", all, why));
+            .push(pass("move_boundary", "move_boundary", all, why));
     }
     solver.before_search.push(PassPlan::new(
         "physics/advance_clock",

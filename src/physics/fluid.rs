@@ -12,10 +12,10 @@ use super::kernels;
 use super::layout::{Fluid, Material, Measure, Planes, Rim, Sums};
 use super::model::{Fault, FromState, Model, OwnFigures, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
+use crate::scene::boundary::NO_BODY;
 use crate::scene::model::{
     DensityFrom, FluidSolver, Integrator, Kernel, NegativePressure, Slip, ViscosityForm, Wall,
 };
-use crate::scene::walls::NO_BODY;
 use crate::scene::{self, Matter, Scene};
 
 /// Flag of every variant of a fluid.
@@ -96,7 +96,7 @@ pub(super) fn sums(scene: &Scene, particles: u32, sums: &Sums) -> OwnFigures {
 /// How fast each obstacle moves its boundary particles.
 pub(super) fn place_obstacles(scene: &Scene, _: &Obstacles, from: f64, to: f64) -> Vec<Written> {
     // Without boundary particles there is nothing to move.
-    if scene.walls.is_empty() {
+    if scene.boundary.is_empty() {
         return Vec::new();
     }
     let velocity = |collider: &scene::Collider| velocity_between(&collider.path, from, to);
@@ -131,10 +131,10 @@ pub fn terms(scene: &Scene) -> Terms {
     let ever = |has: fn(&scene::fluid::Fluid) -> bool| scene.matters().any(|matter| has(given(matter)));
     let viscous = ever(scene::fluid::Fluid::is_viscous);
     let form = |form: ViscosityForm| viscous && fluid.viscosity_form == form;
-    let slips = (!scene.walls.is_empty() || has_wall(scene, Wall::Planes)) && fluid.slip == Slip::FreeSlip;
+    let slips = (!scene.boundary.is_empty() || has_wall(scene, Wall::Planes)) && fluid.slip == Slip::FreeSlip;
     let shifting = fluid.shifting > 0.0;
     let clamped = fluid.negative_pressure == NegativePressure::Clamp;
-    let continuity = scene.has_field("excess");
+    let continuity = scene.has_field("density_deviation");
     Terms {
         continuity,
         density_diffusion: continuity && fluid.density_diffusion > 0.0,
@@ -163,7 +163,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     } = request;
     let fluid = given(&scene.matter);
     let terms = terms(scene);
-    let walls = !scene.walls.is_empty();
+    let walls = !scene.boundary.is_empty();
     let moving = walls && scene.colliders.iter().any(|collider| !collider.path.is_empty());
     let planes = has_wall(scene, Wall::Planes);
     let rim = has_wall(scene, Wall::Particles) && has_wall(scene, Wall::Open);
@@ -260,7 +260,9 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     solver.after_search.push(pass("density", "find_density", why));
     if walls {
         let why = "boundary particles take on the fluid's pressure and velocity (Adami 2012)";
-        solver.after_search.push(pass("boundary", "extend_to_walls", why));
+        solver
+            .after_search
+            .push(pass("boundary_state", "extend_to_boundary", why));
     }
     if tension {
         let why = "where the surface is, for its tension (Morris 2000)";
@@ -332,7 +334,7 @@ pub(super) fn coefficients(scene: &Scene, fluid: &scene::fluid::Fluid) -> Fluid 
         shift_limit: (LONGEST_SHIFT * fluid.spacing) as f32,
         kernel_at_spacing: kernels::value(fluid.kernel, dimensions, h, fluid.spacing) as f32,
         smallest_square: (0.01 * half * half) as f32,
-        lowest_excess: -(fluid.max_speed / sound).powi(2) as f32,
+        lowest_deviation: -(fluid.max_speed / sound).powi(2) as f32,
         surface_tension: fluid.materials[0].surface_tension as f32,
         wetting: fluid.contact_angle.to_radians().cos() as f32,
         spacing: fluid.spacing as f32,
@@ -364,7 +366,7 @@ fn plane_cells(fluid: &scene::fluid::Fluid) -> u32 {
 fn planes_of(scene: &Scene, fluid: &scene::fluid::Fluid) -> Planes {
     let (lower, upper) = bounds(scene, |wall| wall == Wall::Planes, 0.0);
     let velocity = scene
-        .walls
+        .boundary
         .side_velocity
         .map(|ends| ends.map(|v| [v.x, v.y, v.z, 0.0]));
     let [[x_min, x_max], [y_min, y_max], [z_min, z_max]] = velocity;
@@ -398,7 +400,7 @@ pub(super) fn rim_of(scene: &Scene, fluid: &scene::fluid::Fluid) -> Rim {
 
 /// Surface velocity of each boundary particle, and the number of its body.
 pub(super) fn boundary(scene: &Scene) -> Vec<[f32; 4]> {
-    let walls = &scene.walls;
+    let walls = &scene.boundary;
     let each = walls.surface_velocity.iter().zip(&walls.body);
     each.map(|(v, &body)| {
         let number = if body == NO_BODY { -1.0 } else { body as f32 };

@@ -23,7 +23,7 @@ shared_struct! {
         /// Particles that are no boundary particles.
         pub free_count: u32,
         /// Ids from here on are boundary particles.
-        pub first_wall: u32,
+        pub first_boundary: u32,
     }
 }
 
@@ -36,7 +36,7 @@ shared_struct! {
 
 shared_struct! {
     /// How far a segment has come, and the lengths of steps, where the device chooses them.
-    pub struct Pace {
+    pub struct StepControl {
         /// Ticks until the segment ends.
         pub left: u32,
         /// Seconds.
@@ -52,7 +52,7 @@ shared_struct! {
         pub next_ticks: u32,
         /// What the limits allow that step, seconds.
         pub wanted: f32,
-        /// Which limit that is ([`super::pace::names`]).
+        /// Which limit that is ([`super::step_control::names`]).
         pub limit: u32,
         /// Not zero: steps would be so short that the run would never end.
         pub stalled: u32,
@@ -60,7 +60,7 @@ shared_struct! {
         pub shortest: f32,
         pub longest: f32,
         /// Steps since the last frame, by what limited them.
-        pub made: [u32; super::pace::LIMITS.len()],
+        pub made: [u32; super::step_control::LIMITS.len()],
     }
 }
 
@@ -77,11 +77,11 @@ shared_struct! {
 }
 
 shared_struct! {
-    pub struct PaceLimits {
+    pub struct StepControlLimits {
         /// Seconds.
         pub constant: f32,
         /// Metres.
-        pub way: f32,
+        pub courant_distance: f32,
         /// Metres.
         pub fall: f32,
         /// m/s.
@@ -264,7 +264,7 @@ shared_struct! {
         pub kernel_at_spacing: f32,
         /// m².
         pub smallest_square: f32,
-        pub lowest_excess: f32,
+        pub lowest_deviation: f32,
         /// N/m.
         pub surface_tension: f32,
         pub wetting: f32,
@@ -387,9 +387,9 @@ shared_struct! {
 pub const SHARED: &[SharedLayout] = &[
     Parameters::LAYOUT,
     Clock::LAYOUT,
-    Pace::LAYOUT,
+    StepControl::LAYOUT,
     Extremes::LAYOUT,
-    PaceLimits::LAYOUT,
+    StepControlLimits::LAYOUT,
     Guard::LAYOUT,
     ContactWalls::LAYOUT,
     ClampWalls::LAYOUT,

@@ -9,8 +9,8 @@ pub mod formulas;
 pub mod kernels;
 pub mod layout;
 mod model;
-pub mod pace;
 pub mod sensors;
+pub mod step_control;
 
 pub use model::{FromState, MODELS, Model, OwnFigures, Request, Solver, Written, model};
 

@@ -17,7 +17,7 @@ use crate::gpu::{BufferPlan, DISPATCHES, Demand, Items, Limits, PassPlan, Varian
 use crate::neighbors::{self, Grid, lists};
 use crate::physics::collider::Obstacles;
 use crate::physics::layout::{Clock, Guard, Occupancy, Parameters, Sums};
-use crate::physics::{self, Model, Request, dem, fields, pace, sensors};
+use crate::physics::{self, Model, Request, dem, fields, sensors, step_control};
 use crate::render;
 use crate::scene::column::Column;
 use crate::scene::model::View;
@@ -255,7 +255,7 @@ impl Plan {
         buffers.extend(state_buffers(scene));
         buffers.extend(search.buffers);
         buffers.extend(solver.buffers);
-        buffers.extend(pace::plan(scene, &mut variant));
+        buffers.extend(step_control::plan(scene, &mut variant));
         buffers.extend(sensors.buffers);
 
         let row = |phase| {
@@ -326,8 +326,8 @@ impl Plan {
             scene: scene.name.clone(),
             dimensions: scene.dimensions.count(),
             particles_at_start: scene.particles.len() as u32,
-            particles: scene.first_wall(),
-            boundary_particles: scene.walls.len() as u32,
+            particles: scene.first_boundary(),
+            boundary_particles: scene.boundary.len() as u32,
             capacity: scene.capacity,
             time_step_s: scene.time.step,
             time_step_limited_by: scene.time.limited_by.to_owned(),

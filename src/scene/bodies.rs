@@ -120,7 +120,9 @@ fn fill_fluid(
         file.gravity.0.get(2).copied().unwrap_or(0.0),
     );
     let pressures = fluid::start_pressures(body, positions, density, gravity, frame, fluid.spacing);
-    particles.excess.extend(pressures.iter().map(|&p| p as f32));
+    particles
+        .density_deviation
+        .extend(pressures.iter().map(|&p| p as f32));
     if !fluid.materials.is_empty() {
         particles.material.extend(positions.iter().map(|_| material));
     }

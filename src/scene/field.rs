@@ -56,7 +56,7 @@ pub enum Travels {
 pub struct Newcomers<'a> {
     pub free: &'a Particles,
     /// Boundary particles, which follow the others.
-    pub walls: &'a Particles,
+    pub boundary: &'a Particles,
     /// Of all of them.
     pub ids: &'a [u32],
 }
@@ -120,7 +120,7 @@ pub const FIELDS: &[Field] = &[
         column: Some(Source::State),
         travels: Travels::Stepped,
         saved: true,
-        start: Some(|new| vectors(&new.free.position, &new.walls.position)),
+        start: Some(|new| vectors(&new.free.position, &new.boundary.position)),
         ..ROW
     },
     Field {
@@ -131,7 +131,7 @@ pub const FIELDS: &[Field] = &[
         column: Some(Source::State),
         travels: Travels::Stepped,
         saved: true,
-        start: Some(|new| vectors(&new.free.velocity, &new.walls.velocity)),
+        start: Some(|new| vectors(&new.free.velocity, &new.boundary.velocity)),
         ..ROW
     },
     Field {
@@ -195,11 +195,11 @@ pub const FIELDS: &[Field] = &[
         ..ROW
     },
     Field {
-        name: "excess",
+        name: "density_deviation",
         about: "ρ/ρ₀ − 1, which the flow carries along",
         travels: Travels::Stepped,
         has: |scene| compressible(scene).any(|fluid| fluid.density_from == DensityFrom::Continuity),
-        start: Some(|new| bytemuck::cast_slice(&new.free.excess).to_vec()),
+        start: Some(|new| bytemuck::cast_slice(&new.free.density_deviation).to_vec()),
         ends_in: Some(("fluid_state", 0)),
         ..ROW
     },
@@ -210,7 +210,7 @@ pub const FIELDS: &[Field] = &[
         about: "velocities that viscous forces see, walls that stick included",
         has: |scene| {
             let sticks = |fluid: &Fluid| fluid.is_viscous() && fluid.slip == Slip::NoSlip;
-            !scene.walls.is_empty() && compressible(scene).any(sticks)
+            !scene.boundary.is_empty() && compressible(scene).any(sticks)
         },
         ..ROW
     },
@@ -250,8 +250,12 @@ fn compressible(scene: &Scene) -> impl Iterator<Item = &Fluid> {
 }
 
 /// As the device holds vectors: a zero beside each.
-fn vectors(free: &[Vec3], walls: &[Vec3]) -> Vec<u8> {
-    let four: Vec<[f32; 4]> = free.iter().chain(walls).map(|v| v.extend(0.0).into()).collect();
+fn vectors(free: &[Vec3], boundary: &[Vec3]) -> Vec<u8> {
+    let four: Vec<[f32; 4]> = free
+        .iter()
+        .chain(boundary)
+        .map(|v| v.extend(0.0).into())
+        .collect();
     bytemuck::cast_slice(&four).to_vec()
 }
 

@@ -368,7 +368,7 @@ impl Fluid {
                 constant: constant
                     .min_by(|a, b| a.0.total_cmp(&b.0))
                     .expect("viscosity is one"),
-                way: self.courant_number * self.spacing,
+                courant_distance: self.courant_number * self.spacing,
                 fall: INCOMPRESSIBLE_FALL * self.spacing,
                 sound_speed: 0.0,
                 expected_speed: 0.0,
@@ -379,7 +379,7 @@ impl Fluid {
             constant: constant
                 .min_by(|a, b| a.0.total_cmp(&b.0))
                 .expect("viscosity is one"),
-            way: SOUND_SHARE * h,
+            courant_distance: SOUND_SHARE * h,
             fall: FORCE_SHARE * FORCE_SHARE * h,
             sound_speed: self.sound_speed,
             expected_speed: self.max_speed,
@@ -387,7 +387,7 @@ impl Fluid {
     }
 
     /// (ρ/ρ₀) − 1 at a pressure above the background, Pa: the inverse of the equation of state.
-    pub fn excess_at(&self, density: f64, pressure: f64) -> f64 {
+    pub fn deviation_at(&self, density: f64, pressure: f64) -> f64 {
         let gamma = f64::from(self.gamma);
         let stiffness = density * self.sound_speed * self.sound_speed / gamma;
         ((pressure / stiffness).ln_1p() / gamma).exp_m1()

@@ -75,7 +75,7 @@ pub fn entries() -> Result<Vec<Entry>> {
             name: name.to_string(),
             description: word("description"),
             source: word("source"),
-            particles: scene.first_wall(),
+            particles: scene.first_boundary(),
         })
     };
     names().into_iter().map(entry).collect()

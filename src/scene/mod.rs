@@ -4,6 +4,7 @@
 
 mod bgeo;
 mod bodies;
+pub mod boundary;
 mod changes;
 pub mod check;
 pub mod color_maps;
@@ -42,18 +43,17 @@ mod text;
 mod time;
 mod validate;
 mod vtp;
-pub mod walls;
 
 use std::path::PathBuf;
 
 use glam::{DVec3, Vec3};
 use model::{Addressing, Cell, Dashpot, Integrator, Render, SceneFile, SlicingAxis, Storage, Wall};
 
+use boundary::BoundaryParticles;
 use column::Column;
 use field::Field;
 use fluid::Fluid;
 use sensors::Sensors;
-use walls::Walls;
 
 /// A validated scene. Nothing after `scene::load` asks again whether a number makes sense.
 #[derive(Debug, Clone)]
@@ -70,7 +70,7 @@ pub struct Scene {
     /// Particles that are there from the start; ids 0, 1, 2, … in this order.
     pub particles: Particles,
     /// Boundary particles of a fluid; their ids follow those of all others.
-    pub walls: Walls,
+    pub boundary: BoundaryParticles,
     /// Particles on the device when every event has happened, boundary particles included.
     pub capacity: u32,
     pub colliders: Vec<Collider>,
@@ -144,12 +144,12 @@ impl Scene {
 
     /// Local positions at the start, metres, boundary particles last.
     pub fn positions(&self) -> Vec<Vec3> {
-        [&self.particles.position[..], &self.walls.position].concat()
+        [&self.particles.position[..], &self.boundary.position].concat()
     }
 
     /// Where ids of boundary particles begin.
-    pub fn first_wall(&self) -> u32 {
-        self.capacity - self.walls.len() as u32
+    pub fn first_boundary(&self) -> u32 {
+        self.capacity - self.boundary.len() as u32
     }
 
     /// The scene with frames of so many steps.
@@ -281,7 +281,7 @@ pub struct Particles {
     pub position: Vec<Vec3>,
     pub velocity: Vec<Vec3>,
     /// Of a fluid: (ρ/ρ₀) − 1 at the start. Empty for grains.
-    pub excess: Vec<f32>,
+    pub density_deviation: Vec<f32>,
     /// Of several fluids: index into their materials. Empty for one.
     pub material: Vec<u32>,
 }
@@ -298,7 +298,7 @@ impl Particles {
     pub fn append(&mut self, mut other: Particles) {
         self.position.append(&mut other.position);
         self.velocity.append(&mut other.velocity);
-        self.excess.append(&mut other.excess);
+        self.density_deviation.append(&mut other.density_deviation);
         self.material.append(&mut other.material);
     }
 }
@@ -430,7 +430,7 @@ pub struct StepLimits {
     /// The shortest of the limits that never change, seconds, and its name.
     pub constant: (f64, &'static str),
     /// Metres that motion and sound together may go in a step.
-    pub way: f64,
+    pub courant_distance: f64,
     /// A step is at most √(fall / acceleration), metres.
     pub fall: f64,
     /// Of a fluid at rest density, m/s; 0 for grains.
@@ -449,7 +449,7 @@ impl StepLimits {
             } else {
                 self.constant
             },
-            way: self.way.min(other.way),
+            courant_distance: self.courant_distance.min(other.courant_distance),
             fall: self.fall.min(other.fall),
             sound_speed: self.sound_speed.max(other.sound_speed),
             expected_speed: self.expected_speed.max(other.expected_speed),

@@ -157,9 +157,9 @@ impl<'a> Spline<'a> {
         let i = self.piece(time);
         let ((t0, a), (t1, b)) = (self.points[i], self.points[i + 1]);
         let h = t1 - t0;
-        let (v, w, way) = (self.velocity[i] * h, self.velocity[i + 1] * h, b - a);
-        let begin = 6.0 * way - 4.0 * v - 2.0 * w;
-        let end = -6.0 * way + 2.0 * v + 4.0 * w;
+        let (v, w, distance) = (self.velocity[i] * h, self.velocity[i + 1] * h, b - a);
+        let begin = 6.0 * distance - 4.0 * v - 2.0 * w;
+        let end = -6.0 * distance + 2.0 * v + 4.0 * w;
         begin.length().max(end.length()) / (h * h)
     }
 }

@@ -94,7 +94,7 @@ impl Scene {
                 velocity: vec![Vec3::ZERO; points.len()],
                 ..Particles::default()
             },
-            walls: Default::default(),
+            boundary: Default::default(),
             capacity: points.len() as u32,
             colliders: Vec::new(),
             schedule: Vec::new(),

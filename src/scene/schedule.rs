@@ -349,7 +349,7 @@ impl<'a> Unroll<'a> {
         Particles {
             position: points.iter().map(|point| point.as_vec3()).collect(),
             velocity: vec![velocity.as_vec3(); points.len()],
-            excess: if fluid {
+            density_deviation: if fluid {
                 vec![0.0; points.len()]
             } else {
                 Vec::new()

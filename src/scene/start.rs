@@ -41,9 +41,9 @@ mod tests {
                 (dimensions, kind == Kind::Fluid)
             );
             assert!(
-                (1_000..most).contains(&scene.first_wall()),
+                (1_000..most).contains(&scene.first_boundary()),
                 "{}",
-                scene.first_wall()
+                scene.first_boundary()
             );
             assert_eq!(scene.notes, Vec::<String>::new());
             assert!(

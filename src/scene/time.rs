@@ -83,7 +83,7 @@ pub fn of_grains(
     let adaptive = time.adaptive.then_some(StepLimits {
         expected: step,
         constant: (step, limited_by),
-        way: GRAIN_SHARE * radius,
+        courant_distance: GRAIN_SHARE * radius,
         fall: GRAIN_SHARE * radius,
         sound_speed: 0.0,
         expected_speed: 0.0,

@@ -6,6 +6,7 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::bodies::{self, MOST_PARTICLES};
+use super::boundary::{self, BoundaryParticles};
 use super::changes;
 use super::coloring::{self, Known};
 use super::contact::Law;
@@ -19,7 +20,6 @@ use super::model::{
     Wall,
 };
 use super::text::number;
-use super::walls::{self, Walls};
 use super::{
     Action, Dimensions, Grains, Matter, Neighbors, Particles, Scene, Written, obstacles, schedule, sensors,
     time,
@@ -56,7 +56,7 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
         .map(|law| law.contact(mass))
         .chain(schedule.contacts())
         .collect();
-    let mut walls = Walls::default();
+    let mut boundary_particles = BoundaryParticles::default();
     let (matter, schedule, time) = match (&file.grains, &file.fluid) {
         (Some(given), _) => {
             let matter = Matter::Grains(Grains {
@@ -81,13 +81,14 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
             fluid.check_sound("fluid.sound_speed", &mut report);
             start(&file, &fluid, gravity, &bodies, &mut particles, &mut report);
             if all_sound {
-                walls = walls::sample(&file, &frame, &colliders, fluid.wall_depth(), &mut report);
+                boundary_particles =
+                    boundary::sample(&file, &frame, &colliders, fluid.wall_depth(), &mut report);
             }
             let surface = all_sound
                 && (schedule.adds()
                     || free_surface::there(
                         &particles.position,
-                        &walls.position,
+                        &boundary_particles.position,
                         &frame,
                         fluid.spacing,
                         fluid.support,
@@ -110,7 +111,13 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
             (matter, actions, time)
         }
     };
-    let capacity = capacity(&file, particles.len(), walls.len(), &schedule, &mut report);
+    let capacity = capacity(
+        &file,
+        particles.len(),
+        boundary_particles.len(),
+        &schedule,
+        &mut report,
+    );
     let given = file.fluid.as_ref().and_then(|fluid| fluid.shifting);
     let shifts = given.is_some_and(|strength| strength > 0.0);
     if shifts && file.time.integrator == Integrator::VelocityVerlet {
@@ -145,7 +152,7 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
             gravity: gravity.as_vec3(),
             matter,
             particles,
-            walls,
+            boundary: boundary_particles,
             capacity,
             colliders,
             schedule,
@@ -194,7 +201,7 @@ fn fastest_wall(file: &SceneFile, colliders: &[super::Collider]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// From pressures at the start, which `particles.excess` holds so far, to densities. `bodies` says which particles
+/// From pressures at the start, which `particles.density_deviation` holds so far, to densities. `bodies` says which particles
 /// belong to each body.
 fn start(
     file: &SceneFile,
@@ -209,14 +216,14 @@ fn start(
             fluid.settle(&mut particles.position[range.clone()], gravity);
         }
     }
-    for (i, excess) in particles.excess.iter_mut().enumerate() {
+    for (i, deviation) in particles.density_deviation.iter_mut().enumerate() {
         let material = particles.material.get(i).copied().unwrap_or(0) as usize;
         let density = fluid
             .materials
             .get(material)
             .unwrap_or(&fluid.materials[0])
             .density;
-        *excess = fluid.excess_at(density, f64::from(*excess)) as f32;
+        *deviation = fluid.deviation_at(density, f64::from(*deviation)) as f32;
     }
     // An incompressible fluid finds its pressures in its first steps, whatever it begins with.
     if fluid.density_from == DensityFrom::Summation && fluid.solver != FluidSolver::Dfsph {
@@ -246,7 +253,7 @@ fn mass(file: &SceneFile, dimensions: Dimensions) -> f64 {
 fn capacity(
     file: &SceneFile,
     at_start: usize,
-    walls: usize,
+    boundary_particles: usize,
     schedule: &[super::Scheduled],
     report: &mut Report,
 ) -> u32 {
@@ -255,7 +262,7 @@ fn capacity(
         Action::SetParameters { .. } => 0,
     });
     let free = (at_start + added.sum::<usize>()) as u64;
-    let all = free + walls as u64;
+    let all = free + boundary_particles as u64;
     let comes_later = !file.emitters.is_empty() || file.events.iter().any(|event| event.drop.is_some());
     if file.bodies.is_empty() && !comes_later {
         report.problem(

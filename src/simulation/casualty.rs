@@ -4,12 +4,18 @@ use glam::Vec3;
 
 use super::Simulation;
 use crate::error::{Casualty, Error};
-use crate::physics::layout::{Guard, Pace};
+use crate::physics::layout::{Guard, StepControl};
 
 impl Simulation {
     /// The error that tells of a particle that the guard caught.
-    pub(super) fn casualty(&self, guard: &Guard, index: u32, steps: u32, pace: Option<&Pace>) -> Error {
-        let place = self.place_of(guard.step, index, steps, pace);
+    pub(super) fn casualty(
+        &self,
+        guard: &Guard,
+        index: u32,
+        steps: u32,
+        step_control: Option<&StepControl>,
+    ) -> Error {
+        let place = self.place_of(guard.step, index, steps, step_control);
         let local = Vec3::new(guard.position[0], guard.position[1], guard.position[2]);
         let position = local.as_dvec3() + self.scene.origin;
         let velocity = [guard.velocity[0], guard.velocity[1], guard.velocity[2]];
@@ -54,13 +60,13 @@ impl Simulation {
         }))
     }
 
-    /// Where in the run a step was. Frame `index` came after `steps` steps, the last of them at `pace`.
-    fn place_of(&self, step: u32, index: u32, steps: u32, pace: Option<&Pace>) -> Place {
+    /// Where in the run a step was. Frame `index` came after `steps` steps, the last of them at `step_control`.
+    fn place_of(&self, step: u32, index: u32, steps: u32, step_control: Option<&StepControl>) -> Place {
         let time = self.scene.time;
-        match pace {
+        match step_control {
             // About: the steps of one interval differ in length.
-            Some(pace) => {
-                let made = pace.steps().max(1);
+            Some(step_control) => {
+                let made = step_control.steps().max(1);
                 let mean = 1.0 / (time.fps * f64::from(made));
                 let since = (step + made).saturating_sub(steps);
                 let before = f64::from(index.saturating_sub(1)) / time.fps;

@@ -40,7 +40,7 @@ pub struct Frame {
     /// Steps since the last frame that searched neighbors anew; in the others earlier lists served.
     pub searches: u32,
     /// How often the grid's buffers were made larger since the last frame.
-    pub growths: u32,
+    pub reallocations: u32,
     /// Why neighbor lists, which the scene asks for, have been left out.
     pub lists_left_out: Option<String>,
     /// RGBA, 8 bits each, sRGB, rows from the top without padding.
@@ -198,7 +198,7 @@ pub(super) fn columns(scene: &Scene, plan: &Plan, raw: &BTreeMap<&str, &[u8]>) -
         return Vec::new();
     };
     let ids: Vec<u32> = bytemuck::pod_collect_to_vec(ids);
-    let free = ids.iter().filter(|&&id| id < scene.first_wall()).count();
+    let free = ids.iter().filter(|&&id| id < scene.first_boundary()).count();
     let mut slot_of = vec![0usize; free];
     for (slot, &id) in ids.iter().enumerate() {
         if let Some(place) = slot_of.get_mut(id as usize) {

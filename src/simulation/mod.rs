@@ -2,15 +2,15 @@
 
 mod casualty;
 pub mod frame;
-mod growth;
 mod neighbor_lists;
-mod pace;
 mod particles;
 pub mod passes;
+mod reallocation;
 mod rounds;
 mod segments;
 pub mod sensors;
 pub mod state;
+mod step_control;
 mod submissions;
 
 use std::cell::RefCell;
@@ -31,7 +31,9 @@ use crate::gpu::{BufferPlan, Buffers, Gpu};
 use crate::neighbors::{Grid, boxes, lists};
 use crate::physics::Written;
 use crate::physics::collider::offset_at;
-use crate::physics::layout::{Clock, Guard, Occupancy, Overflow, PACKED_BYTES, Pace, Parameters, Sums};
+use crate::physics::layout::{
+    Clock, Guard, Occupancy, Overflow, PACKED_BYTES, Parameters, StepControl, Sums,
+};
 use crate::plan::Plan;
 use crate::render::Renderer;
 use crate::scene::{Action, Matter, Scene};
@@ -69,13 +71,13 @@ pub struct Simulation {
     /// Steps that were submitted since the run began.
     submitted: u64,
     /// Of adaptive steps, as the device left it.
-    pace: Pace,
+    step_control: StepControl,
     /// How often the grid's buffers were made larger since the last frame was sent.
-    growths: u32,
+    reallocations: u32,
     /// Steps that searched, as the device counts them, now and when the last frame was sent.
     searches: [u32; 2],
-    /// Steps that lists have served of late, on average.
-    served: f64,
+    /// Steps from one search to the next, averaged over the latest.
+    list_lifetime: f64,
     /// Step at which that was found.
     last_look: u32,
     /// Particles that the last search did not follow.
@@ -92,7 +94,7 @@ struct Pending {
     particles: u32,
     quarantined: u32,
     searches: u32,
-    growths: u32,
+    reallocations: u32,
     lists_left_out: Option<String>,
     pass_ms: Vec<(String, f64)>,
     /// When its samples of sensors were taken, seconds.
@@ -150,10 +152,10 @@ impl Simulation {
             submissions: RefCell::default(),
             stop: None,
             submitted: 0,
-            pace: pace::at_start(&scene),
-            growths: 0,
+            step_control: step_control::at_start(&scene),
+            reallocations: 0,
             searches: [0; 2],
-            served: rounds::USUALLY_SERVED,
+            list_lifetime: rounds::USUAL_LIST_LIFETIME,
             last_look: 0,
             quarantined: 0,
             sampled: Vec::new(),
@@ -197,7 +199,7 @@ impl Simulation {
             particle_count: self.count,
             time_step: time_step as f32,
             free_count: self.free_particles(),
-            first_wall: self.scene.first_wall(),
+            first_boundary: self.scene.first_boundary(),
         };
         self.buffers.write(&self.gpu, "parameters", 0, &[parameters])?;
         let dispatch = self
@@ -226,12 +228,12 @@ impl Simulation {
 
     fn make_frame(&mut self, index: u32) -> Result<Option<Frame>> {
         if index == 0 {
-            let walls = self.walls_as_particles();
-            self.add_particles(&self.scene.particles.clone(), Some(&walls))?;
+            let boundary = self.boundary_as_particles();
+            self.add_particles(&self.scene.particles.clone(), Some(&boundary))?;
             self.write_parameters(self.scene.time.step)?;
             self.sample(0.0)?;
         } else {
-            self.pace.begin_frame();
+            self.step_control.begin_frame();
             for segment in segments(&self.scene, index - 1) {
                 self.begin_segment(&segment)?;
                 self.run_segment(&segment)?;
@@ -287,7 +289,7 @@ impl Simulation {
             self.write_parameters(self.scene.time.step)?;
         }
         self.place_obstacles(segment)?;
-        self.pace_segment(segment)
+        self.step_segment(segment)
     }
 
     /// Sets moving obstacles on their way through a segment.
@@ -438,7 +440,7 @@ impl Simulation {
             particles: self.free_particles(),
             quarantined: self.quarantined,
             searches: self.searches_since_last_frame(index),
-            growths: std::mem::take(&mut self.growths),
+            reallocations: std::mem::take(&mut self.reallocations),
             lists_left_out: self.plan.lists_left_out.clone(),
             pass_ms,
             sampled: std::mem::take(&mut self.sampled),
@@ -527,12 +529,12 @@ impl Simulation {
             offset = end;
         }
         let clock: Clock = bytemuck::pod_read_unaligned(by_name["clock"]);
-        let pace = by_name
-            .get("pace")
+        let step_control = by_name
+            .get("step_control")
             .map(|bytes| bytemuck::pod_read_unaligned(bytes));
         let guard: Guard = bytemuck::pod_read_unaligned(by_name["guard"]);
         if guard.count > 0 {
-            return Err(self.casualty(&guard, pending.index, clock.step, pace.as_ref()));
+            return Err(self.casualty(&guard, pending.index, clock.step, step_control.as_ref()));
         }
         let overflow = by_name
             .get("overflow")
@@ -550,7 +552,7 @@ impl Simulation {
             )
         });
         let time = &self.scene.time;
-        let adaptive = self.adaptive_steps(pace.as_ref());
+        let adaptive = self.adaptive_steps(step_control.as_ref());
         Ok(Frame {
             index: pending.index,
             time: f64::from(pending.index) / time.fps,
@@ -563,14 +565,14 @@ impl Simulation {
                 .map_or(time.limited_by, AdaptiveSteps::usual_limit),
             adaptive,
             particles: pending.particles,
-            boundary_particles: self.scene.walls.len() as u32,
+            boundary_particles: self.scene.boundary.len() as u32,
             overflow: u64::from(overflow.since_last_frame),
             convergence: by_name
                 .get("convergence")
                 .map(|bytes| bytemuck::pod_read_unaligned(bytes)),
             quarantined: pending.quarantined,
             searches: pending.searches,
-            growths: pending.growths,
+            reallocations: pending.reallocations,
             lists_left_out: pending.lists_left_out,
             pixels: by_name.get("frame_pixels").map(|pixels| pixels.to_vec()),
             statistics,

@@ -12,37 +12,37 @@ use crate::scene::field::{Newcomers, Travels};
 impl Simulation {
     /// Particles besides boundary particles.
     pub(super) fn free_particles(&self) -> u32 {
-        self.count.saturating_sub(self.scene.walls.len() as u32)
+        self.count.saturating_sub(self.scene.boundary.len() as u32)
     }
 
     /// Boundary particles as they stand at the start.
-    pub(super) fn walls_as_particles(&self) -> Particles {
-        let walls = &self.scene.walls;
+    pub(super) fn boundary_as_particles(&self) -> Particles {
+        let boundary = &self.scene.boundary;
         Particles {
-            position: walls.position.clone(),
-            velocity: walls.surface_velocity.clone(),
+            position: boundary.position.clone(),
+            velocity: boundary.surface_velocity.clone(),
             ..Particles::default()
         }
     }
 
     /// Adds particles behind those that exist, and boundary particles behind these, and searches neighbors anew,
     /// without moving anything.
-    pub(super) fn add_particles(&mut self, free: &Particles, walls: Option<&Particles>) -> Result<()> {
+    pub(super) fn add_particles(&mut self, free: &Particles, boundary: Option<&Particles>) -> Result<()> {
         let none = Particles::default();
-        let walls = walls.unwrap_or(&none);
+        let boundary = boundary.unwrap_or(&none);
         let first_id = self.free_particles();
-        let (more, all) = (free.len() as u32, free.len() + walls.len());
+        let (more, all) = (free.len() as u32, free.len() + boundary.len());
         if all == 0 {
             return Ok(());
         }
         let first = self.count as usize;
-        let first_wall = self.scene.first_wall();
+        let first_boundary = self.scene.first_boundary();
         let ids: Vec<u32> = (first_id..first_id + more)
-            .chain(first_wall..first_wall + walls.len() as u32)
+            .chain(first_boundary..first_boundary + boundary.len() as u32)
             .collect();
         let newcomers = Newcomers {
             free,
-            walls,
+            boundary,
             ids: &ids,
         };
         let mut encoder = self.encoder("add particles");
@@ -73,7 +73,7 @@ impl Simulation {
         self.count += all as u32;
         if let Some(limits) = &self.scene.time.adaptive {
             let speeds = free.velocity.iter().map(|v| v.length());
-            self.pace.heed(limits, speeds.fold(0.0, f32::max));
+            self.step_control.heed(limits, speeds.fold(0.0, f32::max));
         }
         // With a time step of zero, the passes behind the search find accelerations and leave velocities alone.
         self.hold()?;
@@ -96,7 +96,7 @@ impl Simulation {
         Ok(Particles {
             position: column("position")?,
             velocity: column("velocity")?,
-            excess: self.fluid_column(&ids, 0)?,
+            density_deviation: self.fluid_column(&ids, 0)?,
             material: Vec::new(),
         })
     }

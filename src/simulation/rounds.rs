@@ -10,9 +10,9 @@ use crate::gpu::Items;
 use crate::neighbors::layout::ListState;
 use crate::neighbors::lists;
 
-/// Steps that lists serve before anything is known.
-pub(super) const USUALLY_SERVED: f64 = 8.0;
-/// Rounds have room for so many times the steps that lists serve on average: a step that is left out is cheaper than a
+/// Steps from one search to the next, before anything is known.
+pub(super) const USUAL_LIST_LIFETIME: f64 = 8.0;
+/// Rounds have room for so many times the steps of a list.s average lifetime: a step that is left out is cheaper than a
 /// search that is.
 const ROOM: f64 = 1.25;
 /// Adaptive steps that are submitted before the host looks how long they are by then.
@@ -30,7 +30,7 @@ impl Simulation {
         let fixed_end = self.submitted + u64::from(segment.steps);
         // Of adaptive steps nobody knows yet how many there will be.
         let left = |simulation: &Self| match simulation.scene.time.adaptive {
-            Some(_) => simulation.pace.steps_left().min(MOST_AHEAD),
+            Some(_) => simulation.step_control.steps_left().min(MOST_AHEAD),
             None => fixed_end - simulation.submitted,
         };
         while left(self) > timed {
@@ -69,13 +69,13 @@ impl Simulation {
         Ok(())
     }
 
-    /// Learns how long lists served since the last time.
+    /// Learns how long lists lasted since the last time.
     pub(super) fn note_searches(&mut self, step: u32) -> Result<()> {
         let searches = self.read_one::<ListState>("list_state")?.searches;
         let more = searches.wrapping_sub(self.searches[0]);
         if more > 0 {
             let steps = step.wrapping_sub(self.last_look);
-            self.served = (f64::from(steps) / f64::from(more)).max(1.0);
+            self.list_lifetime = (f64::from(steps) / f64::from(more)).max(1.0);
             self.last_look = step;
         }
         self.searches[0] = searches;
@@ -93,9 +93,9 @@ impl Simulation {
             let most = self.most_steps().min(steps);
             let round = match lists::every_step(&self.scene) {
                 true => 1,
-                false => ((ROOM * self.served).ceil() as u64).min(most),
+                false => ((ROOM * self.list_lifetime).ceil() as u64).min(most),
             };
-            let made = self.served.min(round as f64);
+            let made = self.list_lifetime.min(round as f64);
             let rounds = ((left / made).ceil() as u64).min(most / round);
             left -= rounds as f64 * made;
             self.submit(&self.round(round).repeat(rounds as usize))?;

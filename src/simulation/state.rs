@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use crate::gpu::readback;
 use crate::neighbors::layout::ListState;
 use crate::neighbors::{Grid, lists};
-use crate::physics::layout::{Clock, Overflow, Pace, Packed, packed};
+use crate::physics::layout::{Clock, Overflow, Packed, StepControl, packed};
 use crate::scene::field::Field;
 use crate::scene::model::Axis;
 use crate::scene::{Action, Dimensions, Scene};
@@ -37,9 +37,9 @@ impl State {
     /// start for pictures and measures.
     pub fn of_particles(scene: &Scene, frame: u32, position: &[DVec3], velocity: &[Vec3]) -> Self {
         let local = position.iter().map(|&p| (p - scene.origin).as_vec3());
-        let local: Vec<Vec3> = local.chain(scene.walls.position.iter().copied()).collect();
-        let velocity = [velocity, &scene.walls.surface_velocity].concat();
-        let walls = scene.first_wall()..scene.capacity;
+        let local: Vec<Vec3> = local.chain(scene.boundary.position.iter().copied()).collect();
+        let velocity = [velocity, &scene.boundary.surface_velocity].concat();
+        let walls = scene.first_boundary()..scene.capacity;
         let ids: Vec<u32> = (0..position.len() as u32).chain(walls).collect();
         Self {
             frame,
@@ -145,7 +145,7 @@ impl Simulation {
         });
         let counters = [
             ("clock", Clock::LAYOUT.size),
-            ("pace", Pace::LAYOUT.size),
+            ("step_control", StepControl::LAYOUT.size),
             ("overflow", Overflow::LAYOUT.size),
             ("grid", Grid::LAYOUT.size),
         ];
@@ -202,7 +202,7 @@ impl Simulation {
             clock.step_in_segment = last.steps;
         }
         self.restored = (state.frame, clock.step);
-        self.restore_pace(state);
+        self.restore_step_control(state);
         self.submitted = u64::from(clock.step);
         self.last_look = clock.step;
         self.buffers.write(&self.gpu, "clock", 0, &[clock])?;
@@ -234,26 +234,26 @@ impl Simulation {
             self.settle()?;
         }
         // That the grid grew belongs to the frames before.
-        self.growths = 0;
+        self.reallocations = 0;
         // Accelerations belong to the velocities that the last step predicted, so the search cannot find them again.
         for field in saved(&self.scene) {
             self.put(field.name, state.buffer(field.name))?;
         }
-        self.restore_pace(state);
-        self.write_pace()?;
+        self.restore_step_control(state);
+        self.write_step_control()?;
         self.put("overflow", Some(bytemuck::bytes_of(&Overflow::default())))?;
         self.put("overflow", state.buffer("overflow"))?;
         self.write_parameters(self.scene.time.step)
     }
 
     /// Takes the length of the last adaptive step; one that begins anew where the state has none.
-    fn restore_pace(&mut self, state: &State) {
+    fn restore_step_control(&mut self, state: &State) {
         if let Some(limits) = &self.scene.time.adaptive {
             let speeds = state.vectors("velocity").unwrap_or_default();
             let fastest = speeds.iter().map(|v| v.length()).fold(0.0, f32::max);
-            self.pace = match state.buffer("pace") {
+            self.step_control = match state.buffer("step_control") {
                 Some(bytes) => bytemuck::pod_read_unaligned(bytes),
-                None => Pace::new(limits, fastest),
+                None => StepControl::new(limits, fastest),
             };
         }
     }

@@ -62,7 +62,7 @@ pub struct Sized {
     /// Median over turns of the wall time of a step.
     pub step_ms: f64,
     /// How often a search found too little room.
-    pub growths: u32,
+    pub reallocations: u32,
     pub pool_bytes: u64,
 }
 
@@ -99,18 +99,18 @@ impl Bench {
         let mut runs: Vec<Result<(Measured, u32)>> = policies.iter().map(begin).collect();
         for _ in 0..turns {
             for (run, policy) in runs.iter_mut().zip(policies) {
-                if let Ok((measured, growths)) = run
-                    && let Err(error) = measured.turn(steps, policy.exactly, growths)
+                if let Ok((measured, reallocations)) = run
+                    && let Err(error) = measured.turn(steps, policy.exactly, reallocations)
                 {
                     *run = Err(error);
                 }
             }
         }
-        let sized = |(measured, growths): (Measured, u32)| {
+        let sized = |(measured, reallocations): (Measured, u32)| {
             let pool = measured.simulation.buffers().get("index_pool", "(study)")?;
             Ok(Sized {
                 pool_bytes: pool.size(),
-                growths,
+                reallocations,
                 step_ms: median(measured.step_ms),
             })
         };
@@ -185,10 +185,10 @@ impl Measured {
     /// Simulates frames and waits for all of them; gives the number of steps, and how often a grid grew.
     fn frames(&mut self, count: u32) -> Result<(u64, u32)> {
         let before = self.last.steps;
-        let mut growths = 0;
+        let mut reallocations = 0;
         self.searches = 0;
         let mut take = |frame: Frame| {
-            growths += frame.growths;
+            reallocations += frame.reallocations;
             self.searches += frame.searches;
             self.last = frame;
         };
@@ -200,7 +200,7 @@ impl Measured {
         while let Some(frame) = self.simulation.finish_frame()? {
             take(frame);
         }
-        Ok((self.last.steps - before, growths))
+        Ok((self.last.steps - before, reallocations))
     }
 
     /// Simulates frames; the round's time of a step is kept.
@@ -235,10 +235,10 @@ impl Measured {
     }
 
     /// Steps one by one; the turn's time of a step is kept.
-    fn turn(&mut self, steps: u32, exactly: bool, growths: &mut u32) -> Result<()> {
+    fn turn(&mut self, steps: u32, exactly: bool, reallocations: &mut u32) -> Result<()> {
         let start = Instant::now();
         for _ in 0..steps {
-            *growths += self.frames(1)?.1;
+            *reallocations += self.frames(1)?.1;
             if exactly {
                 self.simulation.resize_exactly()?;
             }

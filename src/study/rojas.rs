@@ -190,7 +190,7 @@ fn ratios(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
                 Cell::text(way.name),
                 Cell::text(format!("`{}`", way.grid)),
                 Cell::count(particles),
-                Cell::count(scene.walls.len() as u64),
+                Cell::count(scene.boundary.len() as u64),
                 Cell::number(scene.time.step * 1e6),
                 Cell::number(ratio(middle)),
                 Cell::maybe(extreme(f64::min)),

@@ -79,7 +79,7 @@ pub fn with_particles(file: &Value, particles: Particles) -> Result<Scene> {
 /// The scene with other grains at its start.
 pub fn replaced(scene: &Scene, particles: Particles) -> Scene {
     Scene {
-        capacity: (particles.len() + scene.walls.len()) as u32,
+        capacity: (particles.len() + scene.boundary.len()) as u32,
         particles,
         ..scene.clone()
     }

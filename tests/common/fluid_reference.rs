@@ -2,18 +2,18 @@
 
 use glam::{DMat3, DVec3};
 use sliceflow::physics::kernels;
+use sliceflow::scene::boundary::NO_BODY;
 use sliceflow::scene::fluid::Fluid;
 use sliceflow::scene::model::{
     DensityFrom, Integrator, Kernel, NegativePressure, PressureForce, Slip, ViscosityForm,
 };
-use sliceflow::scene::walls::NO_BODY;
 use sliceflow::scene::{Dimensions, Scene};
 
 pub struct Reference {
     pub position: Vec<DVec3>,
     pub velocity: Vec<DVec3>,
     /// ρ/ρ₀ − 1.
-    pub excess: Vec<f64>,
+    pub deviation: Vec<f64>,
     /// Pa.
     pub pressure: Vec<f64>,
     /// Particles before this one are fluid, the others boundary.
@@ -39,7 +39,7 @@ impl Reference {
     /// Starts from the scene's f32 values, so that only the arithmetic differs.
     pub fn new(scene: &Scene) -> Self {
         let fluid = scene.fluid().expect("a fluid").clone();
-        let walls = &scene.walls;
+        let walls = &scene.boundary;
         let exact = |v: &glam::Vec3| v.as_dvec3();
         let free = scene.particles.len();
         let motion = |&body: &u32| match body {
@@ -49,8 +49,13 @@ impl Reference {
                 _ => DVec3::ZERO,
             },
         };
-        let mut excess: Vec<f64> = scene.particles.excess.iter().map(|&e| f64::from(e)).collect();
-        excess.resize(free + walls.len(), 0.0);
+        let mut deviation: Vec<f64> = scene
+            .particles
+            .density_deviation
+            .iter()
+            .map(|&e| f64::from(e))
+            .collect();
+        deviation.resize(free + walls.len(), 0.0);
         let mut material: Vec<usize> = scene.particles.material.iter().map(|&m| m as usize).collect();
         material.resize(free + walls.len(), 0);
         let mut reference = Self {
@@ -68,12 +73,12 @@ impl Reference {
                 .chain(&walls.surface_velocity)
                 .map(exact)
                 .collect(),
-            pressure: vec![0.0; excess.len()],
+            pressure: vec![0.0; deviation.len()],
             viscous: Vec::new(),
             correction: Vec::new(),
             stress: Vec::new(),
             surface_normal: Vec::new(),
-            excess,
+            deviation,
             free,
             material,
             surface: walls.surface_velocity.iter().map(exact).collect(),
@@ -104,7 +109,7 @@ impl Reference {
         }
     }
 
-    fn is_wall(&self, i: usize) -> bool {
+    fn is_boundary(&self, i: usize) -> bool {
         i >= self.free
     }
 
@@ -113,7 +118,7 @@ impl Reference {
     }
 
     fn volume(&self, i: usize) -> f64 {
-        self.fluid.volume(self.flat()) / (1.0 + self.excess[i])
+        self.fluid.volume(self.flat()) / (1.0 + self.deviation[i])
     }
 
     /// Neighbors: the particle, the way to it, the distance, and ∇ᵢW.
@@ -136,10 +141,10 @@ impl Reference {
         found
     }
 
-    fn pressure_at(&self, i: usize, excess: f64) -> f64 {
+    fn pressure_at(&self, i: usize, deviation: f64) -> f64 {
         let gamma = f64::from(self.fluid.gamma);
         let stiffness = self.rest_density(i) * self.fluid.sound_speed.powi(2) / gamma;
-        let p = self.fluid.background_pressure + stiffness * ((1.0 + excess).powf(gamma) - 1.0);
+        let p = self.fluid.background_pressure + stiffness * ((1.0 + deviation).powf(gamma) - 1.0);
         match self.fluid.negative_pressure {
             NegativePressure::Clamp => p.max(0.0),
             _ => p,
@@ -152,11 +157,11 @@ impl Reference {
         let h = fluid.smoothing();
         let w = |r: f64| kernels::value(fluid.kernel, self.dimensions, h, r);
         let closed = DVec3::from([0, 1, 2].map(|axis| if self.period[axis] > 0.0 { 0.0 } else { 1.0 }));
-        let mut excess = Vec::with_capacity(self.excess.len());
+        let mut deviation = Vec::with_capacity(self.deviation.len());
         self.correction = vec![DMat3::IDENTITY; self.position.len()];
         for i in 0..self.free {
             let neighbors = self.neighbors(i);
-            let e = self.excess[i];
+            let e = self.deviation[i];
             let mut moment = DMat3::ZERO;
             let mut slopes = DMat3::ZERO;
             let mut diffused = 0.0;
@@ -171,12 +176,12 @@ impl Reference {
                 };
                 moment += outer(away, gradient) * volume;
                 let mirrors = fluid.gradient_correction || fluid.slip == Slip::FreeSlip;
-                let mirrored = if self.is_wall(j) && mirrors { 2.0 } else { 1.0 };
+                let mirrored = if self.is_boundary(j) && mirrors { 2.0 } else { 1.0 };
                 slopes += outer(self.velocity[j] - self.velocity[i], gradient) * (mirrored * volume);
                 sum += w(r);
                 surrounded += volume * gradient.dot(away);
-                if !self.is_wall(j) && self.material[j] == self.material[i] {
-                    let difference = self.excess[j] - e - at_rest.dot(away);
+                if !self.is_boundary(j) && self.material[j] == self.material[i] {
+                    let difference = self.deviation[j] - e - at_rest.dot(away);
                     diffused += volume * difference * gradient.dot(away) / (r * r);
                 }
             }
@@ -193,7 +198,7 @@ impl Reference {
                 slopes
             };
             let divergence = slopes.x_axis.x + slopes.y_axis.y + slopes.z_axis.z;
-            excess.push(match fluid.density_from {
+            deviation.push(match fluid.density_from {
                 DensityFrom::Summation => fluid.volume(self.flat()) * sum - 1.0,
                 DensityFrom::Continuity => {
                     let diffusion = 2.0 * fluid.density_diffusion * fluid.support / 2.0 * fluid.sound_speed;
@@ -212,16 +217,16 @@ impl Reference {
                 }
             });
         }
-        self.excess[..self.free].copy_from_slice(&excess);
+        self.deviation[..self.free].copy_from_slice(&deviation);
         for i in 0..self.free {
-            self.pressure[i] = self.pressure_at(i, self.excess[i]);
+            self.pressure[i] = self.pressure_at(i, self.deviation[i]);
         }
         self.viscous = self.velocity.clone();
         for i in self.free..self.position.len() {
             let (mut weights, mut pressure, mut moving, mut stiffness) = (0.0, 0.0, DVec3::ZERO, 0.0);
             for (j, away, r, _) in self.neighbors(i) {
-                if !self.is_wall(j) {
-                    let density = self.rest_density(j) * (1.0 + self.excess[j]);
+                if !self.is_boundary(j) {
+                    let density = self.rest_density(j) * (1.0 + self.deviation[j]);
                     weights += w(r);
                     pressure += w(r) * (self.pressure[j] - density * self.gravity.dot(away));
                     moving += w(r) * self.velocity[j];
@@ -238,7 +243,7 @@ impl Reference {
                 p = p.max(0.0);
             }
             self.pressure[i] = p;
-            self.excess[i] = fluid.excess_at(density, p - fluid.background_pressure);
+            self.deviation[i] = fluid.deviation_at(density, p - fluid.background_pressure);
             if weights > 0.0 && fluid.slip == Slip::NoSlip {
                 self.viscous[i] = 2.0 * self.velocity[i] - moving / weights;
             }
@@ -248,17 +253,17 @@ impl Reference {
     }
 
     fn surface_normal(&self, i: usize) -> DVec3 {
-        if self.is_wall(i) {
+        if self.is_boundary(i) {
             return DVec3::ZERO;
         }
         let support = self.fluid.support;
         let (mut normal, mut offset, mut wall_normal) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
         for (j, away, r, gradient) in self.neighbors(i) {
-            if self.is_wall(j) || self.material[j] == self.material[i] {
+            if self.is_boundary(j) || self.material[j] == self.material[i] {
                 normal += gradient * self.volume(j);
                 offset += (1.0 - r / support) * away;
             }
-            if self.is_wall(j) {
+            if self.is_boundary(j) {
                 wall_normal += gradient * self.volume(j);
             }
         }
@@ -277,7 +282,7 @@ impl Reference {
         for i in 0..self.free {
             let mut slopes = DMat3::ZERO;
             for (j, _, _, gradient) in self.neighbors(i) {
-                if !(self.is_wall(j) && self.fluid.slip == Slip::FreeSlip) {
+                if !(self.is_boundary(j) && self.fluid.slip == Slip::FreeSlip) {
                     slopes += outer(self.viscous[j] - self.velocity[i], gradient) * self.volume(j);
                 }
             }
@@ -298,7 +303,7 @@ impl Reference {
         let half = fluid.support / 2.0;
         let mut all = Vec::new();
         for i in 0..self.free {
-            let density = self.rest_density(i) * (1.0 + self.excess[i]);
+            let density = self.rest_density(i) * (1.0 + self.deviation[i]);
             let viscosity = fluid.materials[self.material[i]].viscosity;
             let (mut push, mut drag) = (DVec3::ZERO, DVec3::ZERO);
             let normal = self.surface_normal[i];
@@ -306,11 +311,11 @@ impl Reference {
             let mut offset = DVec3::ZERO;
             let (mut inwards, mut against) = (DVec3::ZERO, 0.0);
             let (mut wall_velocity, mut damping) = (DVec3::ZERO, DMat3::ZERO);
-            let (mut crowd, mut slopes, mut excess_slope) = (DVec3::ZERO, DMat3::ZERO, DVec3::ZERO);
+            let (mut crowd, mut slopes, mut deviation_slope) = (DVec3::ZERO, DMat3::ZERO, DVec3::ZERO);
             let (mut inside, mut surrounded) = (DVec3::ZERO, 0.0);
             for (j, away, r, gradient) in self.neighbors(i) {
                 let volume = self.volume(j);
-                let other = self.rest_density(j) * (1.0 + self.excess[j]);
+                let other = self.rest_density(j) * (1.0 + self.deviation[j]);
                 let (p, q) = (self.pressure[i], self.pressure[j]);
                 let pressures = match fluid.pressure_force {
                     PressureForce::Difference => q - p,
@@ -321,10 +326,10 @@ impl Reference {
                 };
                 push -= volume * pressures * gradient;
                 let apart = self.viscous[j] - self.velocity[i];
-                let slides = self.is_wall(j) && fluid.slip == Slip::FreeSlip;
+                let slides = self.is_boundary(j) && fluid.slip == Slip::FreeSlip;
                 if fluid.viscosity_form == ViscosityForm::Stress {
                     let mine = self.stress[i];
-                    let other = if self.is_wall(j) { mine } else { self.stress[j] };
+                    let other = if self.is_boundary(j) { mine } else { self.stress[j] };
                     let step = if fluid.gradient_correction {
                         other - mine
                     } else {
@@ -374,7 +379,7 @@ impl Reference {
                 }
                 inside += volume * gradient;
                 surrounded += volume * gradient.dot(away) / self.dimensions as f64;
-                excess_slope += volume * (self.excess[j] - self.excess[i]) * gradient;
+                deviation_slope += volume * (self.deviation[j] - self.deviation[i]) * gradient;
             }
             let shown = |least: f64, most: f64| ((surrounded - least) / (most - least)).clamp(0.0, 1.0);
             if fluid.negative_pressure == NegativePressure::Control {
@@ -405,7 +410,7 @@ impl Reference {
                     drag = exact * drag;
                 }
                 slopes *= exact;
-                excess_slope = exact * excess_slope;
+                deviation_slope = exact * deviation_slope;
                 let slips = fluid.slip == Slip::FreeSlip && self.free < self.position.len();
                 if fluid.viscosity_form == ViscosityForm::Laplacian
                     && fluid.kernel != Kernel::Muller
@@ -430,7 +435,7 @@ impl Reference {
                 acceleration: self.gravity + (push + drag) / density,
                 shift,
                 velocity_change: slopes * shift,
-                excess_change: excess_slope.dot(shift),
+                deviation_change: deviation_slope.dot(shift),
             });
         }
         all
@@ -439,7 +444,7 @@ impl Reference {
     /// Moves everything by one step.
     pub fn advance(&mut self) {
         let (mut position, mut velocity) = (self.position.clone(), self.velocity.clone());
-        let mut excess = self.excess.clone();
+        let mut deviation = self.deviation.clone();
         for (i, forces) in self.forces().into_iter().enumerate() {
             let a = if self.verlet {
                 self.acceleration[i]
@@ -454,7 +459,7 @@ impl Reference {
             if self.fluid.shifting > 0.0 {
                 position[i] += forces.shift;
                 velocity[i] += forces.velocity_change;
-                excess[i] += forces.excess_change;
+                deviation[i] += forces.deviation_change;
             }
         }
         for k in 0..self.surface.len() {
@@ -470,7 +475,7 @@ impl Reference {
                 }
             }
         }
-        (self.position, self.velocity, self.excess) = (position, velocity, excess);
+        (self.position, self.velocity, self.deviation) = (position, velocity, deviation);
         self.settle(self.step);
         if self.verlet {
             for (i, forces) in self.forces().into_iter().enumerate() {
@@ -485,7 +490,7 @@ struct Forces {
     acceleration: DVec3,
     shift: DVec3,
     velocity_change: DVec3,
-    excess_change: f64,
+    deviation_change: f64,
 }
 
 /// a bᵀ.

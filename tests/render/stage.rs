@@ -54,7 +54,7 @@ pub fn scene(dimensions: Dimensions, min: Vec3, max: Vec3, radius: f64, size: [u
                 global_damping: 0.0,
             },
         }),
-        walls: Default::default(),
+        boundary: Default::default(),
         particles: Particles::default(),
         capacity: 1,
         colliders: Vec::new(),

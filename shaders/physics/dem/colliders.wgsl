@@ -4,7 +4,7 @@
 #import physics/dem/law
 #if moving_colliders
 #if adaptive_step
-#import physics/pace
+#import physics/step_control
 #else
 #import physics/clock
 #end

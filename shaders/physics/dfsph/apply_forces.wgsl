@@ -5,7 +5,7 @@
 #import common/vector
 #import common/parameters
 #import physics/time_step
-#import physics/fluid/walls
+#import physics/fluid/boundary_particles
 #import physics/dfsph/loop
 #import physics/dfsph/own
 
@@ -20,7 +20,7 @@ var<storage, read_write> acting_impulse: array<f32>; // Pa·s
 @compute @workgroup_size(GROUP_SIZE)
 fn apply_forces(thread: Thread) {
     let i = item_index(thread);
-    if i >= loop_count() || is_wall(i) {
+    if i >= loop_count() || is_boundary(i) {
         return;
     }
     let v = unpack(velocity[i]);

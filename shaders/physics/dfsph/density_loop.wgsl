@@ -15,11 +15,11 @@ fn velocity_of(j: u32) -> Vector {
 @compute @workgroup_size(GROUP_SIZE)
 fn predict_density(thread: Thread) {
     let i = item_index(thread);
-    if i >= loop_count() || is_wall(i) {
+    if i >= loop_count() || is_boundary(i) {
         return;
     }
     let dt = time_step();
-    let excess = own[i].excess + dt * compression_rate(i);
-    acting_impulse[i] = iterate(i, excess / dt);
-    add_error(thread, excess);
+    let deviation = own[i].deviation + dt * compression_rate(i);
+    acting_impulse[i] = iterate(i, deviation / dt);
+    add_error(thread, deviation);
 }

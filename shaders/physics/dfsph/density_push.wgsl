@@ -12,7 +12,7 @@ var<storage, read_write> next_position: array<Packed>;
 @compute @workgroup_size(GROUP_SIZE)
 fn follow_velocity(thread: Thread) {
     let i = item_index(thread);
-    if i < loop_count() && !is_wall(i) {
+    if i < loop_count() && !is_boundary(i) {
         let impulse = dfsph.warm_correction * time_step() * number_of(position[i]);
         next_position[i] = next_velocity[i];
         acting_impulse[i] = impulse;
@@ -24,7 +24,7 @@ fn follow_velocity(thread: Thread) {
 @compute @workgroup_size(GROUP_SIZE)
 fn push_apart(thread: Thread) {
     let i = item_index(thread);
-    if i < loop_count() && !is_wall(i) {
+    if i < loop_count() && !is_boundary(i) {
         next_position[i] = pack(unpack(next_position[i]) + push_on(i));
     }
 }

@@ -17,11 +17,11 @@ const SLACK: f32 = 0.01;
 @compute @workgroup_size(GROUP_SIZE)
 fn find_divergence(thread: Thread) {
     let i = item_index(thread);
-    if i >= loop_count() || is_wall(i) {
+    if i >= loop_count() || is_boundary(i) {
         return;
     }
     let dt = time_step();
-    let rate = compression_rate(i) + min(own[i].excess + SLACK, 0.0) / dt;
+    let rate = compression_rate(i) + min(own[i].deviation + SLACK, 0.0) / dt;
     acting_impulse[i] = iterate(i, rate);
     add_error(thread, rate * dt);
 }

@@ -5,7 +5,7 @@
 fn drag_by(j: u32, v: Vector, s: Vector, slope: f32) -> Vector {
     let apart = unpack(velocity[j]) - v;
 #if slips
-    let sticks = !is_wall(j);
+    let sticks = !is_boundary(j);
 #else
     let sticks = true;
 #end

@@ -26,7 +26,7 @@ const LONELY: f32 = 1e-4;
 @compute @workgroup_size(GROUP_SIZE)
 fn find_density(thread: Thread) {
     let i = item_index(thread);
-    if i >= loop_count() || is_wall(i) {
+    if i >= loop_count() || is_boundary(i) {
         return;
     }
     let x = unpack(position[i]);
@@ -67,7 +67,7 @@ fn find_density(thread: Thread) {
         }
     }
     let diagonal = dot(slopes, slopes) + squares;
-    let excess = fluid.volume * sum - 1.0;
+    let deviation = fluid.volume * sum - 1.0;
     let pressure = number_of(velocity[i]);
     let response = select(fluid.density / diagonal, 0.0, diagonal * fluid.spacing * fluid.spacing < LONELY);
 #if boundary_particles
@@ -76,6 +76,6 @@ fn find_density(thread: Thread) {
 #if drag
     next_velocity[i] = pack(drag);
 #end
-    own[i] = Own(excess, 0.0, response, 0.0);
-    fluid_state[i] = vec2f(excess, pressure);
+    own[i] = Own(deviation, 0.0, response, 0.0);
+    fluid_state[i] = vec2f(deviation, pressure);
 }

@@ -4,7 +4,7 @@
 #import common/parameters
 #import physics/time_step
 #import physics/guard
-#import physics/fluid/walls
+#import physics/fluid/boundary_particles
 #import cells/images
 #import physics/dfsph/loop
 #import physics/dfsph/own
@@ -25,7 +25,7 @@
 @compute @workgroup_size(GROUP_SIZE)
 fn move_fluid(thread: Thread) {
     let i = item_index(thread);
-    if i >= loop_count() || is_wall(i) {
+    if i >= loop_count() || is_boundary(i) {
         return;
     }
     let x = unpack(position[i]);

@@ -1,7 +1,7 @@
 // What the loops keep of each particle.
 
 struct Own {
-    excess: f32, // ρ/ρ₀ − 1
+    deviation: f32, // ρ/ρ₀ − 1
     impulse: f32, // impulse of a loop so far, Pa·s
     response: f32, // impulse over the rate at which it thins the fluid out, Pa·s²
     previous: f32, // impulse of the iteration before, Pa·s

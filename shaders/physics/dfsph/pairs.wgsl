@@ -1,7 +1,7 @@
 // What the loops go over: a particle's pairs, without boundary particles, whose part is the same in every iteration.
 #import common/thread
 #import common/parameters
-#import physics/fluid/walls
+#import physics/fluid/boundary_particles
 #import physics/dfsph/loop
 #import physics/dfsph/own
 #import physics/dfsph/pair_list

@@ -45,7 +45,7 @@ fn sense_walls(thread: Thread) {
     // A step that is left out keeps what the last one found.
     let runs = dispatch[DISPATCH_MOVING].x != 0u;
     for (var i = share.first; i < parameters.particle_count; i += share.step) {
-        if runs && !is_wall(i) {
+        if runs && !is_boundary(i) {
             reading = add_readings(PROBE_FORCE, reading, pushed(-force_on(i), unpack(position[i])));
         }
     }

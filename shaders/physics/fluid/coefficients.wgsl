@@ -19,7 +19,7 @@ struct Fluid {
     shift_limit: f32, // of one step, m
     kernel_at_spacing: f32, // W at the distance of particles at rest
     smallest_square: f32, // keeps quotients by squared distances finite, m²
-    lowest_excess: f32, // of ρ/ρ₀ − 1 where negative pressures are clamped
+    lowest_deviation: f32, // of ρ/ρ₀ − 1 where negative pressures are clamped
     surface_tension: f32, // N/m
     wetting: f32, // cosine of the contact angle
     spacing: f32, // of particles at rest, m

@@ -10,14 +10,14 @@
 #if planes
 #import physics/fluid/planes
 #end
-#import physics/fluid/excess
+#import physics/fluid/density_deviation
 #each density
 #import <density>
 #end
 
 struct Density {
     rate: f32, // of ρ/ρ₀, 1/s
-    excess: f32, // ρ/ρ₀ − 1 at the step's end
+    deviation: f32, // ρ/ρ₀ − 1 at the step's end
 #each density {Density}
     {density}: {Density},
 #end
@@ -27,17 +27,17 @@ struct Density {
 struct Own {
     index: u32,
     velocity: Vector, // m/s
-    excess: f32, // before the step
+    deviation: f32, // before the step
 }
 
 // A particle near it, or a cell beyond a plane, which counts as a wall's particle.
 struct Neighbor {
     index: u32, // of a cell: that of the particle itself
-    s: Vector, // the way there, m
+    s: Vector, // from the particle to its neighbor, m
     r: f32, // its length, m
     share: f32, // of it that is there
     weight: f32, // its volume times the kernel's slope; the gradient of W is −s times the slope
-    excess: f32,
+    deviation: f32,
     velocity: Vector, // m/s
     wall: bool,
 }
@@ -45,15 +45,15 @@ struct Neighbor {
 @compute @workgroup_size(GROUP_SIZE)
 fn find_density(thread: Thread) {
     let i = item_index(thread);
-    if i >= parameters.particle_count || is_wall(i) {
+    if i >= parameters.particle_count || is_boundary(i) {
         return;
     }
     let x = unpack(position[i]);
     let made_of = material_of(i);
-    let excess = excess_before(i);
-    let own = Own(i, unpack(velocity[i]), excess);
+    let deviation = deviation_before(i);
+    let own = Own(i, unpack(velocity[i]), deviation);
     var density = Density();
-    density.excess = own.excess;
+    density.deviation = own.deviation;
 #each density {density}_begin
     {density}_begin(own, &density);
 #end
@@ -83,26 +83,26 @@ fn find_density(thread: Thread) {
 #each density {density}_end
     {density}_end(own, &density);
 #end
-    density.excess += time_step() * density.rate;
+    density.deviation += time_step() * density.rate;
 #each density {density}_limit
     {density}_limit(own, &density);
 #end
-    let pressure = pressure_at(made_of.stiffness, density.excess);
-    fluid_state[i] = vec2f(density.excess, allowed_pressure(pressure));
+    let pressure = pressure_at(made_of.stiffness, density.deviation);
+    fluid_state[i] = vec2f(density.deviation, allowed_pressure(pressure));
 }
 
 fn neighbor_at(j: u32, s: Vector) -> Neighbor {
-    let wall = is_wall(j);
+    let wall = is_boundary(j);
     let r = length(s);
-    let excess = excess_before(j);
-    let weight = volume_at(excess) * kernel_slope(r);
-    return Neighbor(j, s, r, 1.0, weight, excess, unpack(velocity[j]), wall);
+    let deviation = deviation_before(j);
+    let weight = volume_at(deviation) * kernel_slope(r);
+    return Neighbor(j, s, r, 1.0, weight, deviation, unpack(velocity[j]), wall);
 }
 
 #if planes
 fn neighbor_beyond(own: Own, cell: Beyond) -> Neighbor {
-    let r = length(cell.way);
-    let weight = cell.share * volume_at(own.excess) * kernel_slope(r);
-    return Neighbor(own.index, cell.way, r, cell.share, weight, own.excess, cell.velocity, true);
+    let r = length(cell.offset);
+    let weight = cell.share * volume_at(own.deviation) * kernel_slope(r);
+    return Neighbor(own.index, cell.offset, r, cell.share, weight, own.deviation, cell.velocity, true);
 }
 #end

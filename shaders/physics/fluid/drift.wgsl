@@ -28,12 +28,12 @@ fn drift_fluid(thread: Thread) {
     }
     let dt = time_step();
     let x = unpack(position[i]);
-    let excess = fluid_state[i].x;
+    let deviation = fluid_state[i].x;
     next_acceleration[i] = acceleration[i];
 #if boundary_particles
-    if is_wall(i) {
+    if is_boundary(i) {
         let v = wall_velocity(i);
-        leave_fluid(i, wrapped(x + dt * v.motion), v.motion + v.surface, excess);
+        leave_fluid(i, wrapped(x + dt * v.motion), v.motion + v.surface, deviation);
         return;
     }
 #end
@@ -44,8 +44,8 @@ fn drift_fluid(thread: Thread) {
     keep_within_rim(&moved, &v);
 #end
     watch(id[i], x, &moved, &v);
-    leave_fluid(i, moved, v, excess);
+    leave_fluid(i, moved, v, deviation);
 #if adaptive_step
-    note_fluid(a, v, excess);
+    note_fluid(a, v, deviation);
 #end
 }

@@ -32,7 +32,7 @@ struct Forces {
 struct Own {
     index: u32,
     velocity: Vector, // m/s
-    excess: f32, // ρ/ρ₀ − 1
+    deviation: f32, // ρ/ρ₀ − 1
     pressure: f32, // Pa
     material: Material,
     density: f32, // kg/m³
@@ -41,11 +41,11 @@ struct Own {
 // A particle near it, or a cell beyond a plane, which counts as a wall's particle.
 struct Neighbor {
     index: u32, // of a cell: that of the particle itself
-    s: Vector, // the way there, m
+    s: Vector, // from the particle to its neighbor, m
     r: f32, // its length, m
     volume: f32, // m³
     weight: f32, // the volume times the kernel's slope; the gradient of W is −s times the slope
-    excess: f32,
+    deviation: f32,
     pressure: f32, // Pa
     material: Material,
     velocity: Vector, // m/s
@@ -85,7 +85,7 @@ fn forces_on(i: u32) -> Forces {
     for (var number = 0u; number < cells; number++) {
         var cell = beyond(x, number);
 #if of_one_body
-        cell.share *= select(0.0, 1.0, is_sensed_side(x + cell.way));
+        cell.share *= select(0.0, 1.0, is_sensed_side(x + cell.offset));
 #end
         let other = neighbor_beyond(own, cell);
 #each force {force}_pair
@@ -117,13 +117,13 @@ fn neighbor_at(j: u32, s: Vector) -> Neighbor {
     other.r = length(s);
     other.volume = volume_at(state.x);
     other.weight = other.volume * kernel_slope(other.r);
-    other.excess = state.x;
+    other.deviation = state.x;
     other.pressure = state.y;
     other.material = material_of(j);
     other.velocity = unpack(velocity[j]);
     other.viscous = viscous(j);
     other.stretch = 1.0;
-    other.wall = is_wall(j);
+    other.wall = is_boundary(j);
     return other;
 }
 
@@ -131,12 +131,12 @@ fn neighbor_at(j: u32, s: Vector) -> Neighbor {
 fn neighbor_beyond(own: Own, cell: Beyond) -> Neighbor {
     var other = Neighbor();
     other.index = own.index;
-    other.s = cell.way;
-    other.r = length(cell.way);
-    other.volume = cell.share * volume_at(own.excess);
+    other.s = cell.offset;
+    other.r = length(cell.offset);
+    other.volume = cell.share * volume_at(own.deviation);
     other.weight = other.volume * kernel_slope(other.r);
-    other.excess = own.excess;
-    let weight_of_column = dot(first(parameters.gravity) * first(fluid.closed), cell.way);
+    other.deviation = own.deviation;
+    let weight_of_column = dot(first(parameters.gravity) * first(fluid.closed), cell.offset);
     other.pressure = allowed_pressure(own.pressure + own.density * weight_of_column);
     other.material = own.material;
     other.velocity = cell.velocity;

@@ -32,16 +32,16 @@ fn same_material(i: u32, j: u32) -> bool {
 #end
 
 // Equation of state (Tait; Monaghan 1994): p₀ + B ((1 + e)^γ − 1) with e = ρ/ρ₀ − 1, free of cancellation.
-fn pressure_at(stiffness: f32, excess: f32) -> f32 {
-    var power = excess;
+fn pressure_at(stiffness: f32, deviation: f32) -> f32 {
+    var power = deviation;
     for (var n = 1u; n < GAMMA; n++) {
-        power = power * (1.0 + excess) + excess;
+        power = power * (1.0 + deviation) + deviation;
     }
     return fluid.background_pressure + stiffness * power;
 }
 
 // The inverse of it.
-fn excess_at(stiffness: f32, pressure: f32) -> f32 {
+fn deviation_at(stiffness: f32, pressure: f32) -> f32 {
     let ratio = max(1.0 + (pressure - fluid.background_pressure) / stiffness, 0.0);
     return pow(ratio, 1.0 / f32(GAMMA)) - 1.0;
 }

@@ -42,7 +42,7 @@ fn measure_fluid(thread: Thread) {
         density[i] = own.density * (1.0 + state.x);
 #end
 #if statistics
-        if !is_wall(i) {
+        if !is_boundary(i) {
             let v = unpack(velocity[i]);
             let mass = own.density * fluid.volume;
             sums.kinetic_energy = 0.5 * mass * dot(v, v);
@@ -54,7 +54,7 @@ fn measure_fluid(thread: Thread) {
 #if clamped_pressure
             sums.clamped_pressures = select(0u, 1u, pressure_at(own.stiffness, state.x) < 0.0);
 #if continuity
-            sums.clamped_densities = select(0u, 1u, state.x <= fluid.lowest_excess);
+            sums.clamped_densities = select(0u, 1u, state.x <= fluid.lowest_deviation);
 #end
 #end
         }

@@ -4,7 +4,7 @@
 #import common/parameters
 #import physics/present
 #import physics/fluid/coefficients
-#import physics/fluid/walls
+#import physics/fluid/boundary_particles
 #import <kernel>
 #import <candidates>
 #import cells/images

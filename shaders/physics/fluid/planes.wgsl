@@ -22,7 +22,7 @@ var<uniform> planes: Planes;
 
 // A cell beyond the sides.
 struct Beyond {
-    way: Vector, // from the particle, m
+    offset: Vector, // from the particle, m
     share: f32, // 1 where it lies beyond a side, 0 elsewhere
     velocity: Vector, // of that side, m/s
     stretch: f32, // a velocity that is the particle's at the particle and the side's at the side has changed by so many

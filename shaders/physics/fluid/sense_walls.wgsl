@@ -11,7 +11,7 @@ fn sense_walls(thread: Thread) {
     sensed = probes[min(share.probe, FIRST_POINT_PROBE - 1u)];
     var reading = no_reading(PROBE_FORCE);
     for (var i = share.first; i < parameters.particle_count; i += share.step) {
-        if is_wall(i) {
+        if is_boundary(i) {
             continue;
         }
         let mass = material_of(i).density * fluid.volume;

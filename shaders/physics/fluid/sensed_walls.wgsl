@@ -1,7 +1,7 @@
 // Boundary particles of the body that the probe of a force asks for.
 #import common/parameters
 #import physics/present
-#import physics/fluid/walls
+#import physics/fluid/boundary_particles
 #import physics/sensors/target
 #if boundary_particles
 #import physics/fluid/wall_motion
@@ -9,10 +9,10 @@
 
 fn is_sensed(j: u32) -> bool {
 #if boundary_particles
-    if !is_wall(j) {
+    if !is_boundary(j) {
         return false;
     }
-    let body = boundary[id[j] - parameters.first_wall].w;
+    let body = boundary[id[j] - parameters.first_boundary].w;
     if body < 0.0 {
         return is_sensed_side(unpack(position[j]));
     }

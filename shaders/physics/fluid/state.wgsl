@@ -8,6 +8,6 @@ var<storage, read> fluid_state: array<vec2f>;
 #end
 
 // Of a particle, m³.
-fn volume_at(excess: f32) -> f32 {
-    return fluid.volume / (1.0 + excess);
+fn volume_at(deviation: f32) -> f32 {
+    return fluid.volume / (1.0 + deviation);
 }

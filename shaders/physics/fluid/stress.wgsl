@@ -16,7 +16,7 @@ var<storage, read_write> stress: array<Matrix>;
 @compute @workgroup_size(GROUP_SIZE)
 fn find_stress(thread: Thread) {
     let i = item_index(thread);
-    if i >= parameters.particle_count || is_wall(i) {
+    if i >= parameters.particle_count || is_boundary(i) {
         return;
     }
     let x = unpack(position[i]);
@@ -31,7 +31,7 @@ fn find_stress(thread: Thread) {
             if within(s, fluid.support) && j != i {
                 let weight = volume_at(fluid_state[j].x) * kernel_slope(length(s));
 #if slips
-                slopes -= weight * outer(select(viscous(j) - v, Vector(0.0), is_wall(j)), s);
+                slopes -= weight * outer(select(viscous(j) - v, Vector(0.0), is_boundary(j)), s);
 #else
                 slopes -= weight * outer(viscous(j) - v, s);
 #end
@@ -43,8 +43,8 @@ fn find_stress(thread: Thread) {
     let cells = cells_beyond(x);
     for (var number = 0u; number < cells; number++) {
         let cell = beyond(x, number);
-        let weight = cell.share * volume_at(fluid_state[i].x) * kernel_slope(length(cell.way));
-        slopes -= weight * outer(cell.stretch * (cell.velocity - v), cell.way);
+        let weight = cell.share * volume_at(fluid_state[i].x) * kernel_slope(length(cell.offset));
+        slopes -= weight * outer(cell.stretch * (cell.velocity - v), cell.offset);
     }
 #end
 #end

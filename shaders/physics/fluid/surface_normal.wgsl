@@ -20,7 +20,7 @@ fn find_surface(thread: Thread) {
     if i >= parameters.particle_count {
         return;
     }
-    if is_wall(i) {
+    if is_boundary(i) {
         surface_normal[i] = pack(Vector(0.0));
         return;
     }
@@ -38,9 +38,9 @@ fn find_surface(thread: Thread) {
                 let r = length(s);
                 let slope = -volume_at(fluid_state[j].x) * kernel_slope(r) * s;
                 let near = (1.0 - r / fluid.support) * s;
-                wall_normal += select(Vector(0.0), slope, is_wall(j));
+                wall_normal += select(Vector(0.0), slope, is_boundary(j));
 #if several_materials
-                let own = is_wall(j) || material[j] == material[i];
+                let own = is_boundary(j) || material[j] == material[i];
                 normal += select(Vector(0.0), slope, own);
                 offset += select(Vector(0.0), near, own);
 #else
@@ -54,10 +54,10 @@ fn find_surface(thread: Thread) {
     let cells = cells_beyond(x);
     for (var number = 0u; number < cells; number++) {
         let cell = beyond(x, number);
-        let r = length(cell.way);
-        let slope = -cell.share * volume_at(fluid_state[i].x) * kernel_slope(r) * cell.way;
+        let r = length(cell.offset);
+        let slope = -cell.share * volume_at(fluid_state[i].x) * kernel_slope(r) * cell.offset;
         normal += slope;
-        offset += (cell.share * max(1.0 - r / fluid.support, 0.0)) * cell.way;
+        offset += (cell.share * max(1.0 - r / fluid.support, 0.0)) * cell.offset;
         wall_normal += slope;
     }
 #end

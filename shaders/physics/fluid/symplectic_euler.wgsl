@@ -23,11 +23,11 @@ fn move_fluid(thread: Thread) {
     }
     let dt = time_step();
     let x = unpack(position[i]);
-    var excess = fluid_state[i].x;
+    var deviation = fluid_state[i].x;
 #if boundary_particles
-    if is_wall(i) {
+    if is_boundary(i) {
         let v = wall_velocity(i);
-        leave_fluid(i, wrapped(x + dt * v.motion), v.motion + v.surface, excess);
+        leave_fluid(i, wrapped(x + dt * v.motion), v.motion + v.surface, deviation);
         return;
     }
 #end
@@ -35,18 +35,18 @@ fn move_fluid(thread: Thread) {
     var v = unpack(velocity[i]) + dt * forces.acceleration;
     var moved = x + dt * v;
 #if shifting
-    let way = forces.shifting.way;
-    moved += way;
-    v += forces.velocity_gradient.slope * way;
-    excess += dot(forces.shifting.excess_slope, way);
+    let displacement = forces.shifting.displacement;
+    moved += displacement;
+    v += forces.velocity_gradient.slope * displacement;
+    deviation += dot(forces.shifting.deviation_slope, displacement);
 #end
     moved = wrapped(moved);
 #if rim
     keep_within_rim(&moved, &v);
 #end
     watch(id[i], x, &moved, &v);
-    leave_fluid(i, moved, v, excess);
+    leave_fluid(i, moved, v, deviation);
 #if adaptive_step
-    note_fluid(forces.acceleration, v, excess);
+    note_fluid(forces.acceleration, v, deviation);
 #end
 }

@@ -12,7 +12,7 @@ fn sum_fluid_forces(thread: Thread) {
         return;
     }
     var acceleration = Vector(0.0);
-    if !is_wall(i) {
+    if !is_boundary(i) {
         acceleration = forces_on(i).acceleration;
     }
     next_acceleration[i] = pack(acceleration);

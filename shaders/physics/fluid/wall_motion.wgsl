@@ -1,6 +1,6 @@
 // Boundary particles move with the body that they belong to.
 
-// By id, from `parameters.first_wall` on.
+// By id, from `parameters.first_boundary` on.
 var<storage, read> boundary: array<vec4f>; // surface velocity, m/s; w: the body's number, -1 for the domain's sides
 #if moving_boundaries
 var<storage, read> body_velocity: array<vec4f>; // m/s
@@ -12,7 +12,7 @@ struct WallVelocity {
 }
 
 fn wall_velocity(i: u32) -> WallVelocity {
-    let mine = boundary[id[i] - parameters.first_wall];
+    let mine = boundary[id[i] - parameters.first_boundary];
     var motion = Vector(0.0);
 #if moving_boundaries
     if mine.w >= 0.0 {

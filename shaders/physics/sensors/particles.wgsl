@@ -1,7 +1,7 @@
 // Probes of single particles: what flows through a rectangle, means and extremes in a box.
 #import common/parameters
 #import cells/images
-#import physics/fluid/walls
+#import physics/fluid/boundary_particles
 #import physics/sensors/field
 #import physics/sensors/sweep
 
@@ -30,7 +30,7 @@ fn sense_particles(thread: Thread) {
     var reading = no_reading(probe.kind);
     for (var i = share.first; i < parameters.particle_count; i += share.step) {
         let x = seen_at(unpack(position[i]), probe);
-        if is_wall(i) || any(x < first(probe.lower)) || any(x >= first(probe.upper)) {
+        if is_boundary(i) || any(x < first(probe.lower)) || any(x >= first(probe.upper)) {
             continue;
         }
         var found = no_reading(probe.kind);

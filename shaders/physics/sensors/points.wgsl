@@ -6,7 +6,7 @@
 #import storage/from_voxels
 #import physics/fluid/coefficients
 #import physics/fluid/matrix
-#import physics/fluid/walls
+#import physics/fluid/boundary_particles
 #import <kernel>
 #import physics/sensors/field
 #import physics/sensors/probe
@@ -34,7 +34,7 @@ fn filling(x: Vector) -> f32 {
             for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
                 let j = candidate(slot);
                 let s = unpack(position[j]) - seen;
-                if within(s, fluid.support) && !is_wall(j) {
+                if within(s, fluid.support) && !is_boundary(j) {
                     sum += kernel(length(s));
                 }
             }
@@ -48,10 +48,10 @@ fn filling(x: Vector) -> f32 {
 fn interpolate(probe: Probe) -> Reading {
     let x = first(probe.lower);
     var weights = 0.0;
-    var ways = Vector(0.0); // in units of the support, as all lengths here
+    var offsets = Vector(0.0); // in units of the support, as all lengths here
     var spread = Matrix();
     var values = vec3f(0.0);
-    var value_ways = array<Vector, 3>(Vector(0.0), Vector(0.0), Vector(0.0));
+    var value_offsets = array<Vector, 3>(Vector(0.0), Vector(0.0), Vector(0.0));
     for (var number = 0u; number < IMAGES; number++) {
         var seen = x;
         if !image(x, number, fluid.support, &seen) {
@@ -63,16 +63,16 @@ fn interpolate(probe: Probe) -> Reading {
             for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
                 let j = candidate(slot);
                 let s = unpack(position[j]) - seen;
-                if within(s, fluid.support) && !is_wall(j) {
+                if within(s, fluid.support) && !is_boundary(j) {
                     let weight = kernel(length(s)) * fluid.volume;
-                    let way = s / fluid.support;
+                    let offset = s / fluid.support;
                     let value = field_of(j, probe.field);
                     weights += weight;
-                    ways += weight * way;
-                    spread += weight * outer(way, way);
+                    offsets += weight * offset;
+                    spread += weight * outer(offset, offset);
                     values += weight * value;
                     for (var axis = 0u; axis < 3u; axis++) {
-                        value_ways[axis] += (weight * value[axis]) * way;
+                        value_offsets[axis] += (weight * value[axis]) * offset;
                     }
                 }
             }
@@ -82,13 +82,13 @@ fn interpolate(probe: Probe) -> Reading {
         return Reading(vec4f(0.0), vec4f(0.0));
     }
     var mean = values / weights;
-    let middle = ways / weights;
+    let middle = offsets / weights;
     let around_middle = spread * (1.0 / weights) - outer(middle, middle);
     if weights > probe.least_filling && determinant(around_middle) > probe.threshold {
         let exact = inverse(around_middle);
         let before = mean;
         for (var axis = 0u; axis < 3u; axis++) {
-            let slope = exact * (value_ways[axis] / weights - before[axis] * middle);
+            let slope = exact * (value_offsets[axis] / weights - before[axis] * middle);
             mean[axis] = before[axis] - dot(slope, middle);
         }
     }
@@ -100,10 +100,10 @@ fn interpolate(probe: Probe) -> Reading {
 fn sense_points(thread: Thread) {
     let number = min(group_index(thread), POINT_PROBES - 1u);
     let probe = probes[FIRST_POINT_PROBE + number];
-    let way = first(probe.upper) - first(probe.lower);
+    let offset = first(probe.upper) - first(probe.lower);
     let is_height = probe.kind == PROBE_HEIGHT;
-    let points = select(0u, u32(ceil(length(way) / fluid.spacing * POINTS_PER_SPACING)) + 1u, is_height);
-    let step = way / f32(max(points, 2u) - 1u);
+    let points = select(0u, u32(ceil(length(offset) / fluid.spacing * POINTS_PER_SPACING)) + 1u, is_height);
+    let step = offset / f32(max(points, 2u) - 1u);
     if thread.local_index == 0u {
         atomicStore(&highest, 0u);
     }

@@ -6,7 +6,7 @@
 #import storage/lists/state
 #import storage/lists/row
 #import cells/images
-#import physics/fluid/walls
+#import physics/fluid/boundary_particles
 #import <storage>
 
 var<storage, read_write> neighbor_list: array<u32>;
@@ -22,10 +22,10 @@ fn list_range(i: u32, wall: bool, y: Vector, range: vec2u, count: vec2u) -> vec2
     for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
         let j = candidate(slot);
         // Boundary particles ask for the fluid only.
-        let wanted = j != i && !(wall && is_wall(j));
+        let wanted = j != i && !(wall && is_boundary(j));
         if wanted && within(unpack(position[j]) - y, grid.list_reach) {
 #if walls_apart
-            let behind = is_wall(j);
+            let behind = is_boundary(j);
             let place = select(found.x, grid.list_capacity - 1u - found.y, behind);
             if found.x + found.y < grid.list_capacity {
                 neighbor_list[row + (LIST_HEAD + place) * LIST_LANES] = j;
@@ -49,7 +49,7 @@ fn list_candidates(thread: Thread) {
         return;
     }
     let x = unpack(position[i]);
-    let wall = is_wall(i);
+    let wall = is_boundary(i);
 #if lists_every_step
     if wall {
         return;

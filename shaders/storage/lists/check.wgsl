@@ -2,7 +2,7 @@
 #import common/vector
 #import common/thread
 #import cells/grid
-#import cells/growth
+#import cells/reallocation
 #import storage/lists/state
 
 @compute @workgroup_size(1)

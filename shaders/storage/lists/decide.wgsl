@@ -7,10 +7,10 @@
 #import common/vector
 #import common/thread
 #import cells/grid
-#import cells/growth
+#import cells/reallocation
 #import physics/clock
 #if adaptive_step
-#import physics/pace
+#import physics/step_control
 #end
 #import storage/lists/state
 
@@ -36,11 +36,11 @@ fn set_search(runs: bool) {
 
 #if adaptive_step
 fn steps_are_left() -> bool {
-    return clock.step != list_state.last_step && pace.left != 0u && pace.stalled == 0u;
+    return clock.step != list_state.last_step && step_control.left != 0u && step_control.stalled == 0u;
 }
 
 fn frame_ends() -> bool {
-    return pace.left == 0u && pace.ends_frame != 0u;
+    return step_control.left == 0u && step_control.ends_frame != 0u;
 }
 #else
 fn steps_are_left() -> bool {

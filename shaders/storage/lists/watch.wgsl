@@ -8,8 +8,8 @@ var<storage, read> listed_position: array<Packed>;
 
 // Two particles that come nearer by the skin together have moved by half of it each.
 fn watch_list(i: u32, moved: Vector) {
-    let way = nearest_image(moved - unpack(listed_position[i]));
-    if dot(way, way) > grid.list_move {
+    let moved_by = nearest_image(moved - unpack(listed_position[i]));
+    if dot(moved_by, moved_by) > grid.list_move {
         atomicStore(&list_state.moved, 1u);
     }
 }

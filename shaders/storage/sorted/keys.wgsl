@@ -13,7 +13,7 @@
 fn sort_key(i: u32) -> u32 {
     let voxel = address(voxel_of(unpack(next_position[i])));
 #if separated
-    return voxel + select(0u, row_length(voxel_total()), next_id[i] >= parameters.first_wall);
+    return voxel + select(0u, row_length(voxel_total()), next_id[i] >= parameters.first_boundary);
 #else
     return voxel;
 #end

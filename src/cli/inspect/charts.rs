@@ -29,7 +29,7 @@ pub fn slice_profile(found: &Found) -> Plot {
     }
     lines.add("occupied voxels", along(&|slice| slice.figures.occupied));
     lines.add("particles", along(&Slice::particles));
-    if !found.subject.scene.walls.is_empty() {
+    if !found.subject.scene.boundary.is_empty() {
         lines.add("boundary particles", along(&|slice| slice.boundary));
     }
     let axis = ["x", "y", "z"][census.grid.axis as usize];

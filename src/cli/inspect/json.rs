@@ -18,7 +18,7 @@ pub fn report(found: &Found) -> Value {
         "frame": subject.frame,
         "time_s": subject.simulated.then_some(subject.time),
         "particles": subject.scene.particles.len(),
-        "boundary_particles": subject.scene.walls.len(),
+        "boundary_particles": subject.scene.boundary.len(),
         "particles_quarantined": census.quarantined,
         "slicing_axis": (["x", "y", "z"][census.grid.axis as usize]),
         "voxel_side": census.grid.side,
@@ -54,7 +54,7 @@ pub fn report(found: &Found) -> Value {
     object.insert("memory".into(), memory.collect());
     object.insert("slices".into(), slices(found));
     if !subject.over_time.is_empty() {
-        let boundary = subject.scene.walls.len();
+        let boundary = subject.scene.boundary.len();
         let samples = subject
             .over_time
             .iter()

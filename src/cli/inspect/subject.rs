@@ -100,7 +100,7 @@ impl Subject {
             }
             if every.is_some_and(|every| index % every == 0 || index == last) {
                 let mut positions = simulation.particles()?.position;
-                positions.extend_from_slice(&scene.walls.position);
+                positions.extend_from_slice(&scene.boundary.position);
                 over_time.push(Sample::of(&scene, grids, index, &positions));
             }
         }
@@ -117,7 +117,7 @@ impl Subject {
         let particles = simulation.particles()?;
         let simulated = last > 0 || scene.time.limited_by != NOTHING_MOVES;
         let scene = still(scene, particles, time);
-        let census = Census::with_boundary(&scene, &scene.positions(), scene.walls.len());
+        let census = Census::with_boundary(&scene, &scene.positions(), scene.boundary.len());
         Ok(Self {
             simulated,
             scene,
@@ -142,7 +142,7 @@ impl Sample {
         Self {
             frame,
             time: f64::from(frame) / scene.time.fps,
-            particles: positions.len() as u64 - scene.walls.len() as u64,
+            particles: positions.len() as u64 - scene.boundary.len() as u64,
             figures: census.figures(),
             octree: census.octree(),
             grids: grids.iter().map(need).collect(),
@@ -157,7 +157,7 @@ fn still(mut scene: Scene, particles: Particles, time: f64) -> Scene {
             collider.path = vec![(0.0, offset_at(&collider.path, time))];
         }
     }
-    scene.capacity = (particles.len() + scene.walls.len()) as u32;
+    scene.capacity = (particles.len() + scene.boundary.len()) as u32;
     scene.particles = particles;
     scene.schedule.clear();
     scene.time.frames = 1;

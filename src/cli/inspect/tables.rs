@@ -56,7 +56,7 @@ fn head(found: &Found) -> String {
         true => format!("frame {}, t = {:.3} s, ", subject.frame, subject.time),
         false => String::new(),
     };
-    let boundary = match subject.scene.walls.len() {
+    let boundary = match subject.scene.boundary.len() {
         0 => String::new(),
         walls => format!(" and {} boundary particles", count(walls as u64)),
     };

@@ -86,7 +86,7 @@ pub mod samples {
             particles: 2,
             overflow: 0,
             quarantined: 0,
-            growths: 0,
+            reallocations: 0,
             lists_left_out: None,
             searches: 0,
             pixels: None,

@@ -64,7 +64,7 @@ impl Share {
             + u64::from(frames) * (FIGURES_BYTES + moving * CHUNK_BYTES);
         let room = (budget - budget / MARGIN).saturating_sub(fixed);
         // Boundary particles are not shown.
-        let all = scene.first_wall();
+        let all = scene.first_boundary();
         let enough = all.min((all / 10).max(WORTH_A_STRIDE));
         let longest = (frames / FEWEST_FRAMES).max(1);
         let with = |stride| {
@@ -99,12 +99,12 @@ impl Share {
             + map_side.map_or(0, |side| u64::from(side * side) + CHUNK_BYTES)
             + if boxes { box_bytes } else { 0 };
         let fit = each.saturating_sub(taken + CHUNK_BYTES) / PARTICLE_BYTES;
-        let particles = fit.min(u64::from(scene.first_wall()));
+        let particles = fit.min(u64::from(scene.first_boundary()));
         Self {
             planned: shown * (taken + CHUNK_BYTES + particles * PARTICLE_BYTES),
             stride,
             particles: particles as u32,
-            of_particles: scene.first_wall(),
+            of_particles: scene.first_boundary(),
             picture,
             map_side,
             boxes,

@@ -213,11 +213,11 @@ impl<'a> Cloud<'a> {
     }
 
     /// The way to the nearest image of a point.
-    fn nearest(&self, way: DVec3) -> DVec3 {
+    fn nearest(&self, offset: DVec3) -> DVec3 {
         let period = self.scene.domain.period().as_dvec3();
         let along = |axis: usize| match period[axis] {
-            0.0 => way[axis],
-            period => way[axis] - period * (way[axis] / period).round(),
+            0.0 => offset[axis],
+            period => offset[axis] - period * (offset[axis] / period).round(),
         };
         DVec3::new(along(0), along(1), along(2))
     }
@@ -284,23 +284,23 @@ impl<'a> Cloud<'a> {
         let all = self.field(field)?;
         let (fluid, dimensions) = (self.fluid(), self.scene.dimensions);
         let mut weights = 0.0;
-        let mut ways = DVec3::ZERO;
+        let mut offsets = DVec3::ZERO;
         let mut spread = DMat3::ZERO;
         let mut values = DVec3::ZERO;
         let mut value_ways = [DVec3::ZERO; 3];
         for (position, value) in self.position.iter().zip(&all) {
-            let way = self.nearest(*position - at);
-            if way.length() >= fluid.support {
+            let offset = self.nearest(*position - at);
+            if offset.length() >= fluid.support {
                 continue;
             }
-            let weight = self.weight(way.length());
-            let way = way / fluid.support;
+            let weight = self.weight(offset.length());
+            let offset = offset / fluid.support;
             weights += weight;
-            ways += weight * way;
-            spread += DMat3::from_cols(way * way.x, way * way.y, way * way.z) * weight;
+            offsets += weight * offset;
+            spread += DMat3::from_cols(offset * offset.x, offset * offset.y, offset * offset.z) * weight;
             values += weight * *value;
             for (axis, sum) in value_ways.iter_mut().enumerate() {
-                *sum += weight * value[axis] * way;
+                *sum += weight * value[axis] * offset;
             }
         }
         let components = 0..field.components(dimensions);
@@ -312,7 +312,7 @@ impl<'a> Cloud<'a> {
             return Ok(components.map(|_| nothing).collect());
         }
         let mean = values / weights;
-        let middle = ways / weights;
+        let middle = offsets / weights;
         let outer = DMat3::from_cols(middle * middle.x, middle * middle.y, middle * middle.z);
         let around = spread * (1.0 / weights) - outer;
         let spread_enough = least_spread(fluid, dimensions);
@@ -336,9 +336,9 @@ impl<'a> Cloud<'a> {
     fn height(&self, from: Vec3, to: Vec3) -> f64 {
         let fluid = self.fluid();
         let least = surface_filling(self.scene, fluid, from, to);
-        let (from, way) = (from.as_dvec3(), (to - from).as_dvec3());
-        let middle = from + 0.5 * way;
-        let direction = way.normalize();
+        let (from, offset) = (from.as_dvec3(), (to - from).as_dvec3());
+        let middle = from + 0.5 * offset;
+        let direction = offset.normalize();
         let near: Vec<DVec3> = self
             .position
             .iter()
@@ -346,15 +346,15 @@ impl<'a> Cloud<'a> {
             .filter(|p| (*p - direction * p.dot(direction)).length() < fluid.support)
             .collect();
         let is_wet = |height: f64| {
-            let point = direction * (height - 0.5 * way.length());
+            let point = direction * (height - 0.5 * offset.length());
             let weights = near.iter().map(|p| self.nearest(*p - point).length());
             let weights = weights.filter(|&distance| distance < fluid.support);
             weights.map(|distance| self.weight(distance)).sum::<f64>() > least
         };
-        let points = (way.length() / fluid.spacing * POINTS_PER_SPACING)
+        let points = (offset.length() / fluid.spacing * POINTS_PER_SPACING)
             .ceil()
             .max(1.0);
-        let step = way.length() / points;
+        let step = offset.length() / points;
         let Some(found) = (0..=points as u32).rev().find(|&k| is_wet(f64::from(k) * step)) else {
             return 0.0;
         };

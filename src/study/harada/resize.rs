@@ -39,7 +39,7 @@ pub fn resizing(page: &mut Page, bench: &Bench, drop: &Drop, steps: u32) -> Resu
         table.row([
             Cell::text(policy.name),
             Cell::maybe(sized.map(|s| s.step_ms)),
-            sized.map_or(Cell::Nothing, |s| Cell::count(s.growths.into())),
+            sized.map_or(Cell::Nothing, |s| Cell::count(s.reallocations.into())),
             sized.map_or(Cell::Nothing, |s| Cell::bytes(s.pool_bytes)),
             outcome.as_ref().err().map_or(Cell::Nothing, Cell::text),
         ]);

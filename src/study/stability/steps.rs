@@ -151,8 +151,8 @@ fn lattice(method: Method) -> Result<Case> {
         }
     })?;
     // Displacements alone do not show where density follows from the flow.
-    for (k, excess) in scene.particles.excess.iter_mut().enumerate() {
-        *excess = DENSITY_NOISE * (12.9898 * k as f32).sin();
+    for (k, deviation) in scene.particles.density_deviation.iter_mut().enumerate() {
+        *deviation = DENSITY_NOISE * (12.9898 * k as f32).sin();
     }
     Ok(Case {
         method: method.name(),

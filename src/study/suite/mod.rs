@@ -256,7 +256,7 @@ fn one(
     let times = measured.times();
     let before_outputs = Instant::now();
     let (outputs, pairs) = outputs(bench, subject, &scene, &state)?;
-    let run_particles = scene.first_wall();
+    let run_particles = scene.first_boundary();
     let per_loop = |iterations: fn(&crate::physics::layout::Convergence) -> u32| {
         convergence.map_or(0.0, |c| f64::from(iterations(&c)) / f64::from(c.steps.max(1)))
     };
@@ -288,7 +288,7 @@ fn one(
     let run = Run {
         scene: subject.name.to_owned(),
         particles: run_particles,
-        boundary_particles: scene.walls.len() as u32,
+        boundary_particles: scene.boundary.len() as u32,
         rounds: rounds as usize,
         steps,
         step_ms,

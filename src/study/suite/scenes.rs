@@ -203,7 +203,7 @@ mod tests {
         for subject in SUBJECTS {
             for n in [1_000, 16_000] {
                 let scene = (subject.scene)(n).unwrap_or_else(|error| panic!("{}: {error}", subject.name));
-                let ratio = f64::from(scene.first_wall()) / f64::from(n);
+                let ratio = f64::from(scene.first_boundary()) / f64::from(n);
                 assert!((0.75..1.3).contains(&ratio), "{}: {ratio} of {n}", subject.name);
             }
         }

@@ -11,5 +11,5 @@ fn continuity_pair(own: Own, other: Neighbor, density: ptr<function, Density>) {
 }
 
 fn continuity_end(own: Own, density: ptr<function, Density>) {
-    density.rate -= (1.0 + own.excess) * density.continuity.divergence;
+    density.rate -= (1.0 + own.deviation) * density.continuity.divergence;
 }

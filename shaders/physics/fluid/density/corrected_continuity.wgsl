@@ -12,5 +12,5 @@ fn corrected_continuity_pair(own: Own, other: Neighbor, density: ptr<function, D
 
 fn corrected_continuity_end(own: Own, density: ptr<function, Density>) {
     let divergence = trace(density.corrected_continuity.slopes * density.gradient_correction.exact);
-    density.rate -= (1.0 + own.excess) * divergence;
+    density.rate -= (1.0 + own.deviation) * divergence;
 }

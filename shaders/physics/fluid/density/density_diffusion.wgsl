@@ -7,13 +7,13 @@ struct DensityDiffusion {
 
 fn density_diffusion_begin(own: Own, density: ptr<function, Density>) {
     density.density_diffusion.at_rest = first(parameters.gravity) * first(fluid.closed)
-        * (fluid.inverse_sound_squared * (1.0 + (2.0 - f32(GAMMA)) * own.excess));
+        * (fluid.inverse_sound_squared * (1.0 + (2.0 - f32(GAMMA)) * own.deviation));
 }
 
 fn density_diffusion_pair(own: Own, other: Neighbor, density: ptr<function, Density>) {
     let gained = dot(density.density_diffusion.at_rest, other.s);
     let mixes = !other.wall && same_material(own.index, other.index);
-    density.density_diffusion.diffused -= select(0.0, other.weight * (other.excess - own.excess - gained), mixes);
+    density.density_diffusion.diffused -= select(0.0, other.weight * (other.deviation - own.deviation - gained), mixes);
 }
 
 fn density_diffusion_end(own: Own, density: ptr<function, Density>) {

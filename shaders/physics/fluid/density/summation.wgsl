@@ -13,5 +13,5 @@ fn summation_pair(own: Own, other: Neighbor, density: ptr<function, Density>) {
 }
 
 fn summation_end(own: Own, density: ptr<function, Density>) {
-    density.excess = fluid.volume * density.summation.sum - 1.0;
+    density.deviation = fluid.volume * density.summation.sum - 1.0;
 }

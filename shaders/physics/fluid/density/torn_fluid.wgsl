@@ -15,6 +15,6 @@ fn torn_fluid_pair(own: Own, other: Neighbor, density: ptr<function, Density>) {
 // Torn fluid keeps close to rest density: it would have to be pressed together again before a wall could hold it. What has
 // left the fluid is under the air's pressure: with the one that it left at, drops would hover on each other as a gas does.
 fn torn_fluid_limit(own: Own, density: ptr<function, Density>) {
-    let kept = max(density.excess, fluid.lowest_excess);
-    density.excess = select(kept, min(kept, 0.0), density.torn_fluid.surrounded < SEVERED);
+    let kept = max(density.deviation, fluid.lowest_deviation);
+    density.deviation = select(kept, min(kept, 0.0), density.torn_fluid.surrounded < SEVERED);
 }

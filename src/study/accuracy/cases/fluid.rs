@@ -90,7 +90,7 @@ fn method(scene: &Scene) -> Method {
         .iter()
         .flatten()
         .any(|&side| side == Wall::Planes);
-    let walls = [(planes, "planes"), (!scene.walls.is_empty(), "particles")];
+    let walls = [(planes, "planes"), (!scene.boundary.is_empty(), "particles")];
     let walls = walls.iter().find(|(there, _)| *there).map(|(_, word)| *word);
     let viscous = fluid.materials.iter().any(|material| material.viscosity > 0.0);
     let support = fluid.support / fluid.spacing;

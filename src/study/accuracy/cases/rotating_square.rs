@@ -39,10 +39,10 @@ fn one(bench: &Bench, n: u32) -> Result<Record> {
     let origin = scene.origin;
     let density = fluid.materials[0].density;
     let places = scene.particles.position.iter();
-    scene.particles.excess = places
+    scene.particles.density_deviation = places
         .map(|p| {
             let at = p.as_dvec3() + origin + 0.5;
-            fluid.excess_at(density, density * pressure([at.x, at.y])) as f32
+            fluid.deviation_at(density, density * pressure([at.x, at.y])) as f32
         })
         .collect();
     let (mut start, mut energy, mut momentum) = (None, 0.0_f64, 0.0_f64);

@@ -44,7 +44,7 @@ impl Simulation {
                 self.note_searches(step)?;
             }
             if self.scene.time.adaptive.is_some() {
-                self.pace = self.read_one("pace")?;
+                self.step_control = self.read_one("step_control")?;
                 self.submitted = step.into();
                 return self.refuse_to_stall();
             }
@@ -107,7 +107,7 @@ impl Simulation {
             }))
         };
         let plan = self.after_steps(plan(grid).or_else(|_| exact()))?;
-        self.growths += 1;
+        self.reallocations += 1;
         self.rebuild(plan)
     }
 

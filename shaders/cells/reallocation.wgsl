@@ -1,6 +1,6 @@
 // What a search needs, and how many threads the passes behind it run. Where a table or a buffer of voxels is too small,
 // the passes that would use it are dispatched with nothing, until the host has made more room and searches again
-// (simulation/growth.rs).
+// (simulation/reallocation.rs).
 
 #import storage/sorted/entries
 #import host/dispatch

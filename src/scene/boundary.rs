@@ -12,7 +12,7 @@ use super::{Collider, Dimensions};
 
 /// Boundary particles; they follow the fluid's on the device and in ids.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Walls {
+pub struct BoundaryParticles {
     /// Local, metres, at time zero.
     pub position: Vec<Vec3>,
     /// Velocity of the surface besides its body's motion, m/s.
@@ -28,7 +28,7 @@ pub struct Walls {
 /// Of boundary particles that belong to the domain's sides, which never move.
 pub const NO_BODY: u32 = u32::MAX;
 
-impl Walls {
+impl BoundaryParticles {
     pub fn len(&self) -> usize {
         self.position.len()
     }
@@ -45,17 +45,17 @@ pub fn sample(
     colliders: &[Collider],
     support: f64,
     report: &mut Report,
-) -> Walls {
+) -> BoundaryParticles {
     let spacing = 2.0 * file.radius();
     let layers = (support / spacing - 1e-9).ceil();
-    let mut walls = Walls {
+    let mut boundary = BoundaryParticles {
         depth: layers * spacing,
-        ..Walls::default()
+        ..BoundaryParticles::default()
     };
-    domain_sides(file, frame, spacing, layers as i64, &mut walls, report);
+    domain_sides(file, frame, spacing, layers as i64, &mut boundary, report);
     for (index, collider) in colliders.iter().enumerate() {
         let given = &file.colliders[index];
-        let depth = walls.depth;
+        let depth = boundary.depth;
         for point in inside(collider, frame, spacing, depth) {
             let turn = match (&collider.shape, given.spin) {
                 (super::ColliderShape::Sphere { center, .. }, Some(spin)) => {
@@ -64,12 +64,12 @@ pub fn sample(
                 }
                 _ => DVec3::ZERO,
             };
-            walls.position.push(point.as_vec3());
-            walls.surface_velocity.push(turn.as_vec3());
-            walls.body.push(index as u32);
+            boundary.position.push(point.as_vec3());
+            boundary.surface_velocity.push(turn.as_vec3());
+            boundary.body.push(index as u32);
         }
     }
-    walls
+    boundary
 }
 
 /// A lattice that goes on from the fluid's: its points stand half a spacing off the sides.
@@ -78,7 +78,7 @@ fn domain_sides(
     frame: &Frame,
     spacing: f64,
     layers: i64,
-    walls: &mut Walls,
+    boundary: &mut BoundaryParticles,
     report: &mut Report,
 ) {
     let velocities = file.domain.side_velocities.all();
@@ -94,7 +94,7 @@ fn domain_sides(
             velocity
         })
     });
-    walls.side_velocity = velocity.map(|ends| ends.map(|v| v.as_vec3()));
+    boundary.side_velocity = velocity.map(|ends| ends.map(|v| v.as_vec3()));
     let mut first = [0i64; 3];
     let mut last = [1i64; 3];
     let mut step = [0.0; 3];
@@ -142,9 +142,9 @@ fn domain_sides(
                     [(axis, end)] => velocity[axis][end],
                     _ => DVec3::ZERO,
                 };
-                walls.position.push(point.as_vec3());
-                walls.surface_velocity.push(slides.as_vec3());
-                walls.body.push(NO_BODY);
+                boundary.position.push(point.as_vec3());
+                boundary.surface_velocity.push(slides.as_vec3());
+                boundary.body.push(NO_BODY);
             }
         }
     }

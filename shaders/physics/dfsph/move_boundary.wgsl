@@ -3,7 +3,7 @@
 #import common/thread
 #import common/parameters
 #import physics/time_step
-#import physics/fluid/walls
+#import physics/fluid/boundary_particles
 #import physics/fluid/wall_motion
 #import cells/images
 #import fields/position
@@ -13,9 +13,9 @@
 #import fields/keep
 
 @compute @workgroup_size(GROUP_SIZE)
-fn move_walls(thread: Thread) {
+fn move_boundary(thread: Thread) {
     let i = item_index(thread);
-    if i >= parameters.particle_count || !is_wall(i) {
+    if i >= parameters.particle_count || !is_boundary(i) {
         return;
     }
     let v = wall_velocity(i);

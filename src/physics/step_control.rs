@@ -1,6 +1,6 @@
 //! Steps whose length the device chooses: what limits them, and how far a segment has come.
 
-use super::layout::{Extremes, Pace, PaceLimits};
+use super::layout::{Extremes, StepControl, StepControlLimits};
 use crate::gpu::{BufferPlan, Variant};
 use crate::scene::{Scene, StepLimits};
 
@@ -23,7 +23,13 @@ pub fn plan(scene: &Scene, variant: &mut Variant) -> Vec<BufferPlan> {
         return Vec::new();
     };
     vec![
-        BufferPlan::storage("pace", 1, Pace::LAYOUT.size as u64, "time, and lengths of steps").reported(),
+        BufferPlan::storage(
+            "step_control",
+            1,
+            StepControl::LAYOUT.size as u64,
+            "time, and lengths of steps",
+        )
+        .reported(),
         BufferPlan::storage(
             "extremes",
             1,
@@ -31,17 +37,17 @@ pub fn plan(scene: &Scene, variant: &mut Variant) -> Vec<BufferPlan> {
             "the fastest particle and the greatest acceleration of a step",
         ),
         BufferPlan::constant(
-            "pace_limits",
+            "step_limits",
             &device_limits(limits),
             "what limits the length of a step",
         ),
     ]
 }
 
-fn device_limits(limits: &StepLimits) -> PaceLimits {
-    PaceLimits {
+fn device_limits(limits: &StepLimits) -> StepControlLimits {
+    StepControlLimits {
         constant: limits.constant.0.min(ENDLESS) as f32,
-        way: limits.way as f32,
+        courant_distance: limits.courant_distance as f32,
         fall: limits.fall as f32,
         sound_speed: limits.sound_speed as f32,
         expected_speed: limits.expected_speed as f32,
@@ -78,21 +84,21 @@ fn module() -> String {
     )
 }
 
-impl Pace {
+impl StepControl {
     /// Before the first step, for which nothing is known but the length that the scene expects and how fast particles
     /// are, m/s.
     pub fn new(limits: &StepLimits, fastest: f32) -> Self {
-        let mut pace = Self {
+        let mut step_control = Self {
             wanted: limits.expected as f32,
             ..Default::default()
         };
-        pace.heed(limits, fastest);
-        pace
+        step_control.heed(limits, fastest);
+        step_control
     }
 
     /// Lets the next step be no longer than particles of such a speed allow, m/s.
     pub fn heed(&mut self, limits: &StepLimits, fastest: f32) {
-        let allowed = limits.way / (limits.sound_speed + f64::from(fastest));
+        let allowed = limits.courant_distance / (limits.sound_speed + f64::from(fastest));
         self.wanted = self.wanted.min(allowed as f32);
     }
 
@@ -139,20 +145,24 @@ mod tests {
 
     #[test]
     fn what_is_left_is_cut_into_equal_steps() {
-        let mut pace = Pace {
+        let mut step_control = StepControl {
             wanted: 0.03,
             ..Default::default()
         };
-        pace.begin_segment(0.1, true, 0.0);
-        assert_eq!(pace.steps_left(), 4);
-        assert!((pace.next_step - 0.025).abs() < 1e-9, "{}", pace.next_step);
+        step_control.begin_segment(0.1, true, 0.0);
+        assert_eq!(step_control.steps_left(), 4);
+        assert!(
+            (step_control.next_step - 0.025).abs() < 1e-9,
+            "{}",
+            step_control.next_step
+        );
         // No sliver where rounding alone would ask for one more.
-        pace.wanted = 0.1 / 3.0 * (1.0 - 1e-6);
-        pace.begin_segment(0.1, true, 0.0);
-        assert_eq!(pace.steps_left(), 3);
+        step_control.wanted = 0.1 / 3.0 * (1.0 - 1e-6);
+        step_control.begin_segment(0.1, true, 0.0);
+        assert_eq!(step_control.steps_left(), 3);
         // The last step takes what is left, to the tick.
-        pace.left = 12_345;
-        pace.aim();
-        assert_eq!((pace.next_ticks, pace.steps_left()), (12_345, 1));
+        step_control.left = 12_345;
+        step_control.aim();
+        assert_eq!((step_control.next_ticks, step_control.steps_left()), (12_345, 1));
     }
 }

@@ -11,7 +11,7 @@ use crate::scene::{Scene, library, load};
 
 /// A run, as it was asked for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Recipe {
+pub struct Configuration {
     /// The run's identity, which stays when it is resumed or made longer; a variant gets its own.
     pub run_id: String,
     /// The scene file's text, to the letter, so that every number is read as it was.
@@ -56,12 +56,13 @@ pub struct Recorded {
     #[serde(default)]
     pub boundary_particles: usize,
     /// Absent where frames were drawn from another run's particles.
-    pub recipe: Option<Recipe>,
+    #[serde(alias = "recipe")]
+    pub configuration: Option<Configuration>,
     /// That other run.
     pub drawn_from: Option<PathBuf>,
 }
 
-impl Recipe {
+impl Configuration {
     pub fn new(scene: &Scene, arguments: &[String]) -> Result<Self> {
         let written = &scene.written;
         let ships = library::folder().is_ok_and(|folder| folder == written.folder);
@@ -129,9 +130,9 @@ impl Recorded {
     }
 
     /// What the run was asked for.
-    pub fn recipe(&self) -> Result<&Recipe> {
+    pub fn configuration(&self) -> Result<&Configuration> {
         let folder = self.folder.display();
-        self.recipe.as_ref().ok_or_else(|| match &self.drawn_from {
+        self.configuration.as_ref().ok_or_else(|| match &self.drawn_from {
             Some(from) => Error::usage(
                 format!(
                     "{folder} holds no simulation: it was drawn from {}",

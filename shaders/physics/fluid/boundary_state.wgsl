@@ -10,13 +10,13 @@ var<storage, read_write> viscous_velocity: array<Packed>;
 #end
 
 @compute @workgroup_size(GROUP_SIZE)
-fn extend_to_walls(thread: Thread) {
+fn extend_to_boundary(thread: Thread) {
     let i = item_index(thread);
     if i >= parameters.particle_count {
         return;
     }
     let v = unpack(velocity[i]);
-    if !is_wall(i) {
+    if !is_boundary(i) {
 #if viscous_velocities
         viscous_velocity[i] = pack(v);
 #end
@@ -36,7 +36,7 @@ fn extend_to_walls(thread: Thread) {
         for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
             let s = toward(x, j);
-            if within(s, fluid.support) && !is_wall(j) {
+            if within(s, fluid.support) && !is_boundary(j) {
                 let weight = kernel(length(s));
                 let state = fluid_state[j];
                 let other = material_of(j);
@@ -54,7 +54,7 @@ fn extend_to_walls(thread: Thread) {
     let share = select(1.0 / weights, 0.0, none);
     let extended = select((pressure - dot(first(parameters.gravity), weight_moment)) * share, fluid.background_pressure, none);
     let p = allowed_pressure(extended);
-    let e = excess_at(select(stiffness * share, fluid.stiffness, none), p);
+    let e = deviation_at(select(stiffness * share, fluid.stiffness, none), p);
     fluid_state[i] = vec2f(e, p);
 #if viscous_velocities
     viscous_velocity[i] = pack(select(2.0 * v - moving * share, v, none));

@@ -64,7 +64,7 @@ fn a_grid_that_grows_loses_nothing_and_changes_no_bit() {
                 };
                 let (tight, roomy) = (run("1"), run("100"));
                 let label = format!("{dimensions}D {addressing} × {}", storage.name);
-                let grown: u32 = tight.iter().map(|frame| frame.growths).sum();
+                let grown: u32 = tight.iter().map(|frame| frame.reallocations).sum();
                 assert!(grown > 0, "{label}: nothing had to grow");
                 for (a, b) in tight.iter().zip(&roomy) {
                     assert_eq!(a.steps, b.steps, "{label}");
@@ -96,7 +96,7 @@ fn what_is_too_far_is_counted_and_does_not_take_memory() {
             let label = format!("{addressing} × {}", storage.name);
             assert_eq!(frames[0].quarantined, 2, "{label}");
             assert_eq!(frames[1].quarantined, 2, "{label}");
-            assert_eq!(frames[0].growths, 0, "{label}");
+            assert_eq!(frames[0].reallocations, 0, "{label}");
         }
     }
 }
@@ -180,7 +180,7 @@ fn auto_slices_across_the_axis_with_the_fewest_voxels_and_turns_when_it_grows() 
         }
         let frames = frames(&scene, 3);
         assert!(
-            frames.iter().map(|frame| frame.growths).sum::<u32>() > 0,
+            frames.iter().map(|frame| frame.reallocations).sum::<u32>() > 0,
             "{axis}"
         );
     }

@@ -1,7 +1,7 @@
-// How far a run has come, and how long steps are, where the device chooses them (physics::pace).
+// How far a run has come, and how long steps are, where the device chooses them (physics::step_control).
 #import host/step_limits
 
-struct Pace {
+struct StepControl {
     left: u32, // ticks until the segment ends
     tick: f32, // s
     ends_frame: u32, // not zero: a frame ends with the segment
@@ -18,12 +18,12 @@ struct Pace {
 }
 
 #if advances_clock
-var<storage, read_write> pace: Pace;
+var<storage, read_write> step_control: StepControl;
 #else
-var<storage, read> pace: Pace;
+var<storage, read> step_control: StepControl;
 #end
 
 // Time since the segment began, s.
 fn segment_time() -> f32 {
-    return f32(SEGMENT_TICKS - pace.left) * pace.tick;
+    return f32(SEGMENT_TICKS - step_control.left) * step_control.tick;
 }

@@ -5,19 +5,19 @@ use super::frame::AdaptiveSteps;
 use super::segments::Segment;
 use crate::error::{Error, Result};
 use crate::physics::collider::offset_at;
-use crate::physics::layout::{Clock, Guard, Pace};
-use crate::physics::pace::names;
+use crate::physics::layout::{Clock, Guard, StepControl};
+use crate::physics::step_control::names;
 use crate::scene::Scene;
 
 /// What a run begins with.
-pub(super) fn at_start(scene: &Scene) -> Pace {
+pub(super) fn at_start(scene: &Scene) -> StepControl {
     let limits = scene.time.adaptive.as_ref();
-    limits.map_or_else(Pace::default, |limits| Pace::new(limits, 0.0))
+    limits.map_or_else(StepControl::default, |limits| StepControl::new(limits, 0.0))
 }
 
 impl Simulation {
     /// Sets out for a segment's end.
-    pub(super) fn pace_segment(&mut self, segment: &Segment) -> Result<()> {
+    pub(super) fn step_segment(&mut self, segment: &Segment) -> Result<()> {
         let seconds = segment.end_time - segment.start_time;
         let speed = |path: &[_]| {
             let way = offset_at(path, segment.end_time) - offset_at(path, segment.start_time);
@@ -25,13 +25,16 @@ impl Simulation {
         };
         let speeds = self.scene.colliders.iter().map(|collider| speed(&collider.path));
         let fastest = speeds.fold(0.0, f32::max);
-        self.pace.begin_segment(seconds, segment.ends_frame, fastest);
-        self.write_pace()
+        self.step_control
+            .begin_segment(seconds, segment.ends_frame, fastest);
+        self.write_step_control()
     }
 
-    pub(super) fn write_pace(&self) -> Result<()> {
+    pub(super) fn write_step_control(&self) -> Result<()> {
         match self.scene.time.adaptive {
-            Some(_) => self.buffers.write(&self.gpu, "pace", 0, &[self.pace]),
+            Some(_) => self
+                .buffers
+                .write(&self.gpu, "step_control", 0, &[self.step_control]),
             None => Ok(()),
         }
     }
@@ -39,21 +42,27 @@ impl Simulation {
     /// Has the passes behind a search find densities and accelerations without any time passing, so that they leave
     /// velocities alone.
     pub(super) fn hold(&mut self) -> Result<()> {
-        self.pace.step = 0.0;
-        self.write_pace()?;
+        self.step_control.step = 0.0;
+        self.write_step_control()?;
         self.write_parameters(0.0)
     }
 
     /// Gives up a run whose steps have become so short that it would never end.
     pub(super) fn refuse_to_stall(&self) -> Result<()> {
-        let pace = &self.pace;
-        let Some(limits) = self.scene.time.adaptive.as_ref().filter(|_| pace.stalled != 0) else {
+        let step_control = &self.step_control;
+        let Some(limits) = self
+            .scene
+            .time
+            .adaptive
+            .as_ref()
+            .filter(|_| step_control.stalled != 0)
+        else {
             return Ok(());
         };
         let clock = self.read_one::<Clock>("clock")?;
         let guard = self.read_one::<Guard>("guard")?;
         if guard.count > 0 {
-            return Err(self.casualty(&guard, self.next_frame, clock.step, Some(pace)));
+            return Err(self.casualty(&guard, self.next_frame, clock.step, Some(step_control)));
         }
         Err(Error::Limit {
             what: format!(
@@ -61,9 +70,9 @@ impl Simulation {
                  never end; the step is limited by the {}",
                 self.next_frame,
                 clock.step,
-                pace.wanted,
+                step_control.wanted,
                 limits.expected,
-                names(limits)[pace.limit as usize],
+                names(limits)[step_control.limit as usize],
             ),
             help: "look at the frame before for particles that are far too fast, set time.adaptive to false, or begin \
                    with a scene whose particles do not lie in one another"
@@ -72,12 +81,12 @@ impl Simulation {
     }
 
     /// How the steps since the last frame were; `None` where there was none.
-    pub(super) fn adaptive_steps(&self, pace: Option<&Pace>) -> Option<AdaptiveSteps> {
-        let (limits, pace) = self.scene.time.adaptive.as_ref().zip(pace)?;
-        let limited = names(limits).into_iter().zip(pace.made);
-        (pace.steps() > 0).then(|| AdaptiveSteps {
-            shortest_s: pace.shortest.into(),
-            longest_s: pace.longest.into(),
+    pub(super) fn adaptive_steps(&self, step_control: Option<&StepControl>) -> Option<AdaptiveSteps> {
+        let (limits, step_control) = self.scene.time.adaptive.as_ref().zip(step_control)?;
+        let limited = names(limits).into_iter().zip(step_control.made);
+        (step_control.steps() > 0).then(|| AdaptiveSteps {
+            shortest_s: step_control.shortest.into(),
+            longest_s: step_control.longest.into(),
             limited_by: limited.filter(|(_, made)| *made > 0).collect(),
         })
     }

@@ -2,15 +2,15 @@
 #if boundary_particles
 #import common/parameters
 
-fn is_wall(i: u32) -> bool {
+fn is_boundary(i: u32) -> bool {
 #if separated
     return i >= parameters.free_count;
 #else
-    return id[i] >= parameters.first_wall;
+    return id[i] >= parameters.first_boundary;
 #end
 }
 #else
-fn is_wall(i: u32) -> bool {
+fn is_boundary(i: u32) -> bool {
     return false;
 }
 #end
