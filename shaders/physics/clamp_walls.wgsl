@@ -1,4 +1,4 @@
-// BoundaryParticles that move a grain back inside and reverse its normal speed, times a restitution factor (Green 2012).
+// Walls that move a grain back inside and reverse its normal speed, times a restitution factor (Green 2012).
 #import common/vector
 
 struct ClampWalls {

@@ -43,7 +43,7 @@ impl Terms {
         self.slips && (self.artificial_viscosity || self.wall_friction)
     }
 
-    /// BoundaryParticles along which fluid slips say nothing of the velocity's slope, which this needs.
+    /// Walls along which fluid slips say nothing of the velocity's slope, which this needs.
     fn laplacian_correction(&self) -> bool {
         self.gradient_correction && self.laplacian && !self.muller && !self.slips
     }

@@ -3,7 +3,7 @@
 #import physics/dfsph/pairs
 
 
-// Change of velocity by the impulses, m/s. BoundaryParticles have none of their own (Akinci 2012): so what impulses do is the exact
+// Change of velocity by the impulses, m/s. Walls have none of their own (Akinci 2012): so what impulses do is the exact
 // counterpart of the rate that they act against (solve.wgsl), and no energy comes from nowhere. The pressure of the row along
 // a wall then carries for both.
 fn push_on(i: u32) -> Vector {

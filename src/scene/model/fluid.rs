@@ -26,7 +26,7 @@ pub struct Fluid {
     /// tension, and `laplacian` for all others when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub viscosity_form: Option<ViscosityForm>,
-    /// Artificial viscosity α (Monaghan 1992); keeps impacts stable. BoundaryParticles along which fluid slips damp only what
+    /// Artificial viscosity α (Monaghan 1992); keeps impacts stable. Walls along which fluid slips damp only what
     /// comes nearer.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 10.0))]

@@ -1,4 +1,4 @@
-// Σ Vⱼ α h c min((vⱼ − vᵢ)·s, 0) / (r² + 0.01 h²) ∇W (Monaghan 1992). BoundaryParticles along which fluid slips are left to
+// Σ Vⱼ α h c min((vⱼ − vᵢ)·s, 0) / (r² + 0.01 h²) ∇W (Monaghan 1992). Walls along which fluid slips are left to
 // wall_damping.wgsl.
 
 fn artificial_viscosity_pair(own: Own, other: Neighbor, forces: ptr<function, Forces>) {
