@@ -77,6 +77,12 @@ pub fn buffers(scene: &Scene, length: u32) -> Vec<BufferPlan> {
             8,
             "the same neighbors with the kernel's gradients there",
         ));
+        buffers.push(BufferPlan::storage(
+            "pair_weight",
+            rows * length,
+            4,
+            "weights of the same neighbors in the pressure equation",
+        ));
     } else {
         buffers.push(BufferPlan::storage(
             "listed_position",

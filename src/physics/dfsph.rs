@@ -1,11 +1,11 @@
 //! Divergence-free SPH (Bender and Koschier 2015, 2017): an incompressible fluid, whose steps may be as long as its motion
 //! allows, since no sound has to be followed.
 //!
-//! A step finds velocities after all forces but pressure and makes them free of divergence; then it corrects where particles
-//! go, so that no density exceeds rest density at its end, and moves them. What corrects densities does not become motion
-//! (Cornelis et al. 2019), so that water comes to rest. Both loops are recorded as often as they may run; the device lets the
-//! rest run on nothing once they have converged (`shaders/physics/dfsph/control.wgsl`). Pressures are never negative, so the
-//! fluid has free surfaces.
+//! A step finds velocities after all forces but pressure, looks for the pressures that free them of divergence, and moves
+//! particles by what they become: an approximate projection (Cummins and Rudman 1999), whose Laplacian joins neighbors only, so
+//! that pressures of neighbors cannot come apart. Too much density is undone by and by, as a part of what pressures have to
+//! undo. The loop for pressures is recorded as often as it may run; the device lets the rest run on nothing once it has
+//! converged (`shaders/physics/dfsph/control.wgsl`). Pressures are never negative, so the fluid has free surfaces.
 
 use super::collider::Obstacles;
 use super::dem::has_wall;
@@ -21,19 +21,10 @@ use crate::scene::{self, Matter, Scene};
 
 /// Sums that the errors of all particles are added to.
 const ERROR_SUMS: u32 = 256;
-/// Numbers of the loops.
-pub const DENSITY: u32 = 0;
-pub const DIVERGENCE: u32 = 1;
-/// Relaxation of Jacobi's iteration. With the momentum below, dam breaks in 3D blow up at 0.4.
-const RELAXATION: f32 = 0.3;
-/// Share of an iteration's step that the next one goes on with. Dam break in 2D, 1,250 particles, mean iterations of a step:
-/// 17 without, 9.6 with 0.5, 6.0 with 0.7, 5.7 with 0.8.
-const MOMENTUM: f32 = 0.7;
-/// Share of the last step's pressures that a step begins with; without them the same run takes 50 iterations and more.
-const WARM_START: f32 = 1.0;
-/// The same of what corrected densities, which changes faster. Dam break in 3D, 59,319 particles, mean iterations after the
-/// impact: 8.8 without, 5.1 with 0.5, 1.7 with 0.9.
-const WARM_CORRECTION: f32 = 0.9;
+/// Number of the loop.
+pub const DIVERGENCE: u32 = 0;
+/// Relaxation of Jacobi's iteration; with the momentum that it has, it converges up to 0.5.
+const RELAXATION: f32 = 0.45;
 
 /// The row of incompressible fluids.
 pub(super) const MODEL: Model = Model {
@@ -81,7 +72,6 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         .flag("artificial_viscosity", damped)
         .flag("drag", viscous || damped)
         .constant("ERROR_SUMS", ERROR_SUMS)
-        .constant("DENSITY_LOOP", DENSITY)
         .constant("DIVERGENCE_LOOP", DIVERGENCE)
         // What only compressible fluids have, in shaders that they share.
         .without(&["clamped_pressure", "continuity", "several_materials"])
@@ -100,12 +90,12 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         false => each,
     };
     solver.buffers.extend([
-        BufferPlan::storage("own", listed, 16, "what the loops keep of each particle"),
+        BufferPlan::storage("own", listed, 12, "what a pressure solve keeps of each particle"),
         BufferPlan::storage(
-            "acting_impulse",
-            listed,
+            "impulse",
+            2 * listed,
             4,
-            "pressures that are to act, times a time",
+            "pressures before and after a sweep, times a time",
         ),
         BufferPlan::storage(
             "error_sum",
@@ -113,12 +103,12 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             4,
             "errors of particles, added as whole numbers",
         ),
-        BufferPlan::indirect("loop_dispatch", 4, 16, "workgroups of the loops that go on"),
+        BufferPlan::indirect("loop_dispatch", 2, 16, "workgroups of the loop while it goes on"),
         BufferPlan::indirect(
             "check_dispatch",
-            2,
+            1,
             16,
-            "a workgroup for the checks of those loops",
+            "a workgroup for the checks of the loop",
         ),
         BufferPlan::storage(
             "convergence",
@@ -141,6 +131,10 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         solver
             .buffers
             .push(BufferPlan::storage("wall_pull", listed, PACKED_BYTES, why));
+        let why = "how pressure that grows with depth beyond walls lifts the fluid";
+        solver
+            .buffers
+            .push(BufferPlan::storage("wall_lift", listed, PACKED_BYTES, why));
         let why = "boundary particles: velocity of the surface, and whose they are";
         solver
             .buffers
@@ -160,26 +154,16 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         PassPlan::new(&format!("physics/dfsph/{file}"), entry, items, why)
     };
     let once = Items::Fixed(1);
-    let times = fluid.max_iterations;
-    let repeated = |number, passes: [PassPlan; 4]| {
-        let of = |sparse| Repeat {
-            number,
-            times,
-            sparse,
-        };
-        let mut passes = passes.map(|pass| PassPlan {
-            repeat: Some(of(false)),
-            ..pass
-        });
-        passes[0].repeat = Some(of(true));
-        passes
-    };
-    let watch = "whether the loop goes on, so that its checks run";
-    let density = Items::Loop(DENSITY);
-    let divergence = Items::Loop(DIVERGENCE);
     let all = Items::Particles;
     let free = Items::FreeParticles;
-    let push = "impulses change velocities";
+    let repeated = |sparse, pass| PassPlan {
+        repeat: Some(Repeat {
+            number: DIVERGENCE,
+            times: fluid.max_iterations,
+            sparse,
+        }),
+        ..pass
+    };
     solver.before_search.extend([
         pass(
             "apply_forces",
@@ -188,89 +172,58 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             "velocities after all forces but pressure",
         ),
         pass(
-            "control",
-            "begin_divergence_loop",
-            once,
-            "the loop of divergence begins",
+            "divergence",
+            "find_divergence",
+            free,
+            "what pressures have to undo",
         ),
-        pass(
-            "divergence_push",
-            "correct_velocity",
-            divergence,
-            "pressures of the step before act first",
-        ),
-    ]);
-    solver.before_search.extend(repeated(
-        DIVERGENCE,
-        [
-            pass("control", "watch_divergence_loop", once, watch),
+        pass("control", "begin_divergence_loop", once, "the loop begins"),
+        repeated(
+            true,
             pass(
-                "divergence_loop",
-                "find_divergence",
-                divergence,
-                "divergence of velocities, and the impulse against it",
+                "control",
+                "watch_divergence_loop",
+                once,
+                "whether the loop goes on, so that its checks run",
             ),
+        ),
+        repeated(
+            false,
+            pass(
+                "relax",
+                "relax",
+                Items::Loop(DIVERGENCE),
+                "a sweep over the pressure equation, and its errors",
+            ),
+        ),
+        repeated(
+            false,
             pass(
                 "control",
                 "check_divergence",
                 Items::LoopOnce(DIVERGENCE),
-                "whether divergence has converged",
+                "whether pressures have converged",
             ),
+        ),
+        repeated(
+            false,
             pass(
-                "divergence_push",
-                "correct_velocity",
+                "relax",
+                "relax_again",
                 Items::LoopSecond(DIVERGENCE),
-                push,
+                "the next sweep",
             ),
-        ],
-    ));
+        ),
+        pass(
+            "divergence_push",
+            "correct_velocity",
+            free,
+            "pressures change velocities",
+        ),
+    ]);
     solver
         .before_search
         .extend(request.sensors.then(|| sensors::force_pass(scene)).flatten());
-    solver.before_search.extend([
-        pass(
-            "control",
-            "begin_density_loop",
-            once,
-            "the loop of density begins",
-        ),
-        pass(
-            "density_push",
-            "follow_velocity",
-            density,
-            "particles go as their velocities say",
-        ),
-        pass(
-            "density_push",
-            "push_apart",
-            density,
-            "corrections of the step before act first",
-        ),
-    ]);
-    solver.before_search.extend(repeated(
-        DENSITY,
-        [
-            pass("control", "watch_density_loop", once, watch),
-            pass(
-                "density_loop",
-                "predict_density",
-                density,
-                "density at the step's end, and the impulse against it",
-            ),
-            pass(
-                "control",
-                "check_density",
-                Items::LoopOnce(DENSITY),
-                "whether density has converged",
-            ),
-            pass(
-                "density_push",
-                "push_apart",
-                Items::LoopSecond(DENSITY),
-                "impulses change where particles go",
-            ),
-        ],
-    ));
     solver
         .before_search
         .push(pass("move", "move_fluid", free, "positions at the step's end"));
@@ -313,15 +266,15 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
 fn settings(scene: &Scene, fluid: &scene::fluid::Fluid) -> Dfsph {
     let given = coefficients(scene, fluid);
     let slope = kernels::steepest(fluid.kernel, scene.dimensions.count());
+    let smoothing = 1.0 / f64::from(given.inverse_smoothing);
+    let surface = kernels::lattice_surface(fluid.kernel, scene.dimensions.count(), smoothing, fluid.spacing);
     Dfsph {
-        density_error: fluid.max_density_error as f32,
         divergence_error: fluid.max_divergence_error as f32,
-        density_iterations: fluid.max_iterations,
         divergence_iterations: fluid.max_iterations,
         relaxation: RELAXATION,
-        momentum: MOMENTUM,
-        warm_start: WARM_START,
-        warm_correction: WARM_CORRECTION,
         steepest: given.volume * given.slope_scale / given.inverse_smoothing * slope as f32,
+        surface_density: surface.density as f32,
+        surface_slope: surface.slope as f32,
+        surface_weight: surface.weight as f32,
     }
 }

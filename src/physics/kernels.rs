@@ -57,6 +57,37 @@ pub fn lattice_density(kernel: Kernel, dimensions: usize, h: f64, spacing: f64) 
     sum * normalization(kernel, dimensions) * (spacing / h).powi(dimensions as i32)
 }
 
+/// What a particle at the flat surface of a square or cubic lattice lacks.
+pub struct Surface {
+    /// ρ/ρ₀ that its missing neighbors would add.
+    pub density: f64,
+    /// Length of V Σ ∇W over the neighbors that it has, 1/m.
+    pub slope: f64,
+    /// 2 V Σ |dW/dr| / r over those that are missing, 1/m².
+    pub weight: f64,
+}
+
+/// Of a lattice with so many metres between its points.
+pub fn lattice_surface(kernel: Kernel, dimensions: usize, h: f64, spacing: f64) -> Surface {
+    let reach = (kernel.reach() * h / spacing).ceil() as i32;
+    let ticks = |axis: usize| if axis < dimensions { -reach..=reach } else { 0..=0 };
+    let mut found = Surface { density: 0.0, slope: 0.0, weight: 0.0 };
+    let scale = slope_normalization(kernel, dimensions) * (spacing / h).powi(dimensions as i32);
+    for x in 1..=reach {
+        for y in ticks(1) {
+            for z in ticks(2) {
+                let r = spacing * f64::from(x * x + y * y + z * z).sqrt();
+                let steepness = scale * shape_slope(kernel, dimensions, r / h).abs() / h;
+                found.density += shape(kernel, dimensions, r / h);
+                found.slope += steepness * spacing * f64::from(x) / r;
+                found.weight += 2.0 * steepness / r;
+            }
+        }
+    }
+    found.density *= normalization(kernel, dimensions) * (spacing / h).powi(dimensions as i32);
+    found
+}
+
 /// df/dq. Of Müller's kernels, that of the spiky one with its own factor, see [`slope_normalization`].
 pub fn shape_slope(kernel: Kernel, dimensions: usize, q: f64) -> f64 {
     if q >= kernel.reach() {

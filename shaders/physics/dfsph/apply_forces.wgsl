@@ -1,5 +1,4 @@
-// Velocities after all forces but pressure, and the pressures that a step begins with (Bender and Koschier 2015,
-// Algorithm 1).
+// Velocities after all forces but pressure (Bender and Koschier 2015, Algorithm 1).
 #flag moves
 #import common/thread
 #import common/vector
@@ -7,7 +6,6 @@
 #import physics/time_step
 #import physics/fluid/boundary_particles
 #import physics/dfsph/loop
-#import physics/dfsph/own
 
 var<storage, read> velocity: array<Packed>; // w: pressure, Pa
 #if boundary_particles
@@ -15,7 +13,6 @@ var<storage, read> id: array<u32>;
 #end
 // Before, the acceleration by drag, m/s²; then velocity, m/s.
 var<storage, read_write> next_velocity: array<Packed>;
-var<storage, read_write> acting_impulse: array<f32>; // Pa·s
 
 @compute @workgroup_size(GROUP_SIZE)
 fn apply_forces(thread: Thread) {
@@ -28,9 +25,5 @@ fn apply_forces(thread: Thread) {
 #if drag
     acceleration += unpack(next_velocity[i]);
 #end
-    let impulse = dfsph.warm_start * time_step() * number_of(velocity[i]);
-    own[i].impulse = impulse;
-    own[i].previous = impulse;
     next_velocity[i] = pack(v + time_step() * acceleration);
-    acting_impulse[i] = impulse;
 }

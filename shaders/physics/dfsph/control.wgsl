@@ -1,4 +1,4 @@
-// Begins, checks and ends the loops.
+// Begins, checks and ends the loop for pressures.
 #import physics/dfsph/loop
 #import host/dispatch
 
@@ -81,39 +81,13 @@ fn mean_error() -> f32 {
 }
 
 @compute @workgroup_size(1)
-fn begin_density_loop() {
-    begin_loop(DENSITY_LOOP);
-}
-
-@compute @workgroup_size(1)
 fn begin_divergence_loop() {
     begin_loop(DIVERGENCE_LOOP);
 }
 
 @compute @workgroup_size(1)
-fn watch_density_loop() {
-    watch(DENSITY_LOOP);
-}
-
-@compute @workgroup_size(1)
 fn watch_divergence_loop() {
     watch(DIVERGENCE_LOOP);
-}
-
-@compute @workgroup_size(1)
-fn check_density() {
-    if !goes_on(DENSITY_LOOP) {
-        return;
-    }
-    let found = check(DENSITY_LOOP, dfsph.density_error, dfsph.density_iterations);
-    if !found.is_last {
-        return;
-    }
-    convergence.steps += 1u;
-    convergence.density_iterations += found.iterations;
-    convergence.most_density_iterations = max(convergence.most_density_iterations, found.iterations);
-    convergence.density_unconverged += u32(!found.converged);
-    convergence.density_error = max(convergence.density_error, found.error);
 }
 
 @compute @workgroup_size(1)
@@ -125,6 +99,7 @@ fn check_divergence() {
     if !found.is_last {
         return;
     }
+    convergence.steps += 1u;
     convergence.divergence_iterations += found.iterations;
     convergence.most_divergence_iterations = max(convergence.most_divergence_iterations, found.iterations);
     convergence.divergence_unconverged += u32(!found.converged);

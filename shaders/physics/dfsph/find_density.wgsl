@@ -1,5 +1,5 @@
-// What a particle's surroundings do: density by summation, the drag of its neighbors, and how density answers to pressure: the diagonal of the linear system (Bender and Koschier 2015,
-// Eq. 9; 2017, Eq. 11).
+// What a particle's surroundings do: density by summation, the drag of its neighbors, and the rows of the pressure equation
+// (relax.wgsl).
 #flag writes_state
 #import common/thread
 #import physics/fluid/pairs
@@ -15,9 +15,11 @@ var<storage, read_write> next_velocity: array<Packed>;
 #end
 
 var<storage, read_write> pair_list: array<Pair>;
+var<storage, read_write> pair_weight: array<f32>; // 1/m²
 
 #if boundary_particles
 var<storage, read_write> wall_pull: array<Packed>; // physics/dfsph/pairs
+var<storage, read_write> wall_lift: array<Packed>; // physics/dfsph/push
 #end
 
 // Below this diagonal, in units of 1/spacing², a particle is alone, and pressure has nothing to act on.
@@ -36,10 +38,11 @@ fn find_density(thread: Thread) {
     let v = unpack(velocity[i]);
     var drag = Vector(0.0); // m/s²
 #end
-    var squares = 0.0; // of those that pressure can move, 1/m²
+    var weights = 0.0; // of those that have a pressure of their own, 1/m²
 #if boundary_particles
     var pull = Vector(0.0);
     var approach = 0.0;
+    var lift = Vector(0.0);
 #end
     let home = around(i, x);
     for (var k = 0u; k < RANGES; k++) {
@@ -58,24 +61,31 @@ fn find_density(thread: Thread) {
 #if boundary_particles
             if k == 1u {
                 pull += slope;
+                lift += dot(first(parameters.gravity), s) * slope;
                 approach += dot(unpack(velocity[j]), slope);
                 continue;
             }
 #end
-            squares += dot(slope, slope);
-            pair_list[pair_row(i) + slot - range.x] = pack_pair(j, slope / dfsph.steepest);
+            let pair = pair_row(i) + slot - range.x;
+            pair_list[pair] = pack_pair(j, slope / dfsph.steepest);
+            pair_weight[pair] = -2.0 * steepness;
+            weights -= 2.0 * steepness;
         }
     }
-    let diagonal = dot(slopes, slopes) + squares;
     let deviation = fluid.volume * sum - 1.0;
+    // At a surface the mirror image of the particle has its pressure reversed, so that pressure is zero halfway.
+    let exposed = smoothstep(0.4, 0.8, length(slopes) / dfsph.surface_slope)
+        * smoothstep(0.25, 0.75, -deviation / dfsph.surface_density);
+    let diagonal = weights + exposed * 2.0 * dfsph.surface_weight;
     let pressure = number_of(velocity[i]);
     let response = select(fluid.density / diagonal, 0.0, diagonal * fluid.spacing * fluid.spacing < LONELY);
 #if boundary_particles
     wall_pull[i] = pack_with(pull, approach);
+    wall_lift[i] = pack(lift);
 #end
 #if drag
     next_velocity[i] = pack(drag);
 #end
-    own[i] = Own(deviation, 0.0, response, 0.0);
+    own[i] = Own(exposed * dfsph.surface_density * min(length(slopes) / dfsph.surface_slope, 1.0), response, 0.0);
     fluid_state[i] = vec2f(deviation, pressure);
 }

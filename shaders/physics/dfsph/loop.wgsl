@@ -1,33 +1,28 @@
-// The loops of `dfsph`: how far each has come, and the threads that its passes run. A loop is recorded as often as it may
-// run; once it has converged, the device lets the rest of its passes run on nothing.
+// The loop of `dfsph`: how far it has come, and the threads that its passes run. It is recorded as often as it may run; once it
+// has converged, the device lets the rest of its passes run on nothing.
 #import common/vector
 #import common/parameters
 
 // Figures since the last frame; the host takes and clears them.
 struct Convergence {
     steps: u32,
-    density_iterations: u32, // summed over the steps
-    most_density_iterations: u32, // of one step
-    density_unconverged: u32, // steps that stopped at the largest number of iterations
-    density_error: f32, // what the worst step stopped at, mean of max(ρ/ρ₀ − 1, 0)
-    divergence_iterations: u32,
-    most_divergence_iterations: u32,
-    divergence_unconverged: u32,
-    divergence_error: f32, // the same, of what a step's divergence adds to ρ/ρ₀
+    divergence_iterations: u32, // summed over the steps
+    most_divergence_iterations: u32, // of one step
+    divergence_unconverged: u32, // steps that stopped at the largest number of iterations
+    divergence_error: f32, // what the worst step stopped at
     iteration: u32, // of the loop that runs now
 }
 
 // What the solver stops at (physics::dfsph).
 struct Dfsph {
-    density_error: f32,
     divergence_error: f32,
-    density_iterations: u32, // at most
-    divergence_iterations: u32,
+    divergence_iterations: u32, // at most
     relaxation: f32, // of Jacobi's iteration
-    momentum: f32, // share of an iteration's step that the next one goes on with
-    warm_start: f32, // share of the last step's pressures that a step begins with
-    warm_correction: f32, // the same of what corrected densities
     steepest: f32, // largest gradient of the kernel times a particle's volume, 1/m
+    // Of a particle at a flat surface: what its density lacks, the sum of its gradients, 1/m, and of the missing weights, 1/m².
+    surface_density: f32,
+    surface_slope: f32,
+    surface_weight: f32,
 }
 
 var<uniform> dfsph: Dfsph;

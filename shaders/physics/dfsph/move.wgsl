@@ -7,9 +7,8 @@
 #import physics/fluid/boundary_particles
 #import cells/images
 #import physics/dfsph/loop
-#import physics/dfsph/own
 #import fields/position
-// Before, how the particle goes, m/s; then its position, and in w the impulse that corrected it, as a pressure, Pa.
+// Before, how the particle goes, m/s; then its position. In w the impulse that corrected it, as a pressure, Pa.
 #import fields/next_position/write
 #import fields/next_velocity/write
 #import fields/id
@@ -30,6 +29,7 @@ fn move_fluid(thread: Thread) {
     }
     let x = unpack(position[i]);
     let pressure = number_of(next_velocity[i]);
+    let correction = number_of(next_position[i]);
     var v = unpack(next_velocity[i]);
     var moved = wrapped(x + time_step() * unpack(next_position[i]));
 #if faces
@@ -48,7 +48,7 @@ fn move_fluid(thread: Thread) {
 #end
 #end
     watch(id[i], x, &moved, &v);
-    next_position[i] = pack_with(moved, own[i].impulse / time_step());
+    next_position[i] = pack_with(moved, correction);
     next_velocity[i] = pack_with(v, pressure);
     keep_fields(i);
 #if adaptive_step

@@ -28,7 +28,7 @@ fn force_on(i: u32) -> Vector {
             }
             let s = toward(x, j);
             let slope = fluid.volume * kernel_slope(length(s));
-            force += (pressure * slope) * s;
+            force += (2.0 * pressure * slope) * s;
 #if drag
             force += fluid.density * drag_by(j, v, s, slope);
 #end

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::gpu::reflect::ResourceKind;
 use crate::gpu::{Items, PassPlan, Shader};
 use crate::neighbors::lists;
-use crate::physics::dfsph::{DENSITY, DIVERGENCE};
+use crate::physics::dfsph::DIVERGENCE;
 use crate::plan::{Phase, Plan};
 use crate::scene::Scene;
 
@@ -22,8 +22,7 @@ pub struct Demand {
 pub struct Rates {
     /// Searches a step.
     pub searches: f64,
-    /// Iterations of the loops of `dfsph`.
-    pub density_iterations: f64,
+    /// Iterations of the loop of `dfsph`.
     pub divergence_iterations: f64,
     /// Pairs in reach, each from both sides.
     pub pairs: f64,
@@ -34,6 +33,8 @@ const MOST_BYTES_PER_PARTICLE: u64 = 64;
 const INDEX_BYTES: f64 = 4.0;
 /// Of an entry of `pair_list`.
 const PAIR_BYTES: f64 = 8.0;
+/// Of an entry of `pair_weight`.
+const WEIGHT_BYTES: f64 = 4.0;
 
 /// The least that each pass of a step must move and compute, by label: every array with a value per particle that it binds,
 /// once, and for each pair one entry of a list and one turn of its loop. What finds voxels, and what pairs out of reach
@@ -76,7 +77,6 @@ fn times(pass: &PassPlan, rates: Rates) -> f64 {
         Items::AwayParticles => 0.0,
         // The first one of each loop starts it, before any iteration.
         Items::Loop(_) if pass.repeat.is_none() => 1.0,
-        Items::Loop(DENSITY) | Items::LoopSecond(DENSITY) => rates.density_iterations,
         Items::Loop(DIVERGENCE) | Items::LoopSecond(DIVERGENCE) => rates.divergence_iterations,
         _ => 1.0,
     }
@@ -102,6 +102,7 @@ fn of_pass(plan: &Plan, phase: Phase, pass: &PassPlan, pairs: f64) -> Result<Dem
         bytes += match resource.name.as_str() {
             "neighbor_list" => pairs * INDEX_BYTES,
             "pair_list" => pairs * PAIR_BYTES,
+            "pair_weight" => pairs * WEIGHT_BYTES,
             name => {
                 let planned = plan.buffers.iter().find(|buffer| buffer.name == name);
                 let size = planned.map_or(0, |buffer| buffer.bytes);
@@ -131,7 +132,6 @@ mod tests {
             let of = |pairs: f64| {
                 let rates = Rates {
                     searches: 0.1,
-                    density_iterations: 3.0,
                     divergence_iterations: 2.0,
                     pairs,
                 };
