@@ -156,7 +156,8 @@ pub fn buffers(scene: &Scene, room: Room) -> Vec<BufferPlan> {
             BufferPlan::storage("reach_word", words, 8, "the same bits, and those set before them"),
             BufferPlan::storage(
                 "reached",
-                1 + u64::from(room.reached),
+                // Shaders want room for one in any case.
+                1 + u64::from(room.reached.max(1)),
                 4,
                 "boundary particles in reach of fluid: their number, then they",
             ),
