@@ -14,6 +14,8 @@ shared_struct! {
         pub quarantined: u32,
         pub quarantined_so_far: u32,
         pub longest_list: u32,
+        /// Boundary particles in reach of fluid.
+        pub reached: u32,
     }
 }
 
@@ -27,6 +29,7 @@ impl SearchState {
         quarantined: 0,
         quarantined_so_far: 0,
         longest_list: 0,
+        reached: 0,
     };
 }
 

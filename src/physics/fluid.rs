@@ -12,6 +12,7 @@ use super::kernels;
 use super::layout::{Fluid, Material, Measure, Planes, Rim, Sums};
 use super::model::{Fault, FromState, Model, OwnFigures, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
+use crate::neighbors::lists;
 use crate::scene::boundary::NO_BODY;
 use crate::scene::model::{
     DensityFrom, FluidSolver, Integrator, Kernel, NegativePressure, Slip, ViscosityForm, Wall,
@@ -165,6 +166,9 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     let terms = terms(scene);
     let walls = !scene.boundary.is_empty();
     let moving = walls && scene.colliders.iter().any(|collider| !collider.path.is_empty());
+    let knows_reach = lists::knows_reach(scene);
+    // Periodic sides take boundary particles beyond them back with their first move.
+    let rests = knows_reach && !moving && scene.domain.period() == Vec3::ZERO;
     let planes = has_wall(scene, Wall::Planes);
     let rim = has_wall(scene, Wall::Particles) && has_wall(scene, Wall::Open);
     let several = scene.has_field("material");
@@ -175,6 +179,11 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         .constant("GAMMA", fluid.gamma)
         .flag("boundary_particles", walls)
         .flag("moving_boundaries", moving)
+        .flag("resting_boundary", rests)
+        .flag(
+            "velocity_verlet",
+            scene.time.integrator == Integrator::VelocityVerlet,
+        )
         .flag("continuity", terms.continuity)
         .flag("several_materials", several)
         .flag("viscous_velocities", scene.has_field("viscous_velocity"))
@@ -234,52 +243,76 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         ));
     }
 
-    let pass = |file: &str, entry, why: &str| {
-        PassPlan::new(&format!("physics/fluid/{file}"), entry, Items::Particles, why)
+    let pass = |file: &str, entry, items, why: &str| {
+        PassPlan::new(&format!("physics/fluid/{file}"), entry, items, why)
     };
+    let (all, free, reached) = (Items::Particles, Items::FreeParticles, Items::ReachedParticles);
     let euler = scene.time.integrator == Integrator::SymplecticEuler;
-    solver.before_search.extend([
-        if euler {
-            let why = "forces and symplectic Euler (Rojas 2013, Eq. 7)";
-            pass("symplectic_euler", "move_fluid", why)
-        } else {
-            let why = "positions move, velocities are predicted (velocity Verlet)";
-            pass("drift", "drift_fluid", why)
-        },
-        PassPlan::new(
-            "physics/advance_clock",
-            "advance_clock",
-            Items::Once,
-            "counts the step",
-        ),
-    ]);
+    solver.before_search.push(if euler {
+        let why = "forces and symplectic Euler (Rojas 2013, Eq. 7)";
+        pass("symplectic_euler", "move_fluid", free, why)
+    } else {
+        let why = "positions move, velocities are predicted (velocity Verlet)";
+        pass("drift", "drift_fluid", free, why)
+    });
+    if walls {
+        let items = if rests { reached } else { all };
+        let why = "boundary particles move with their bodies, and keep what they have";
+        solver
+            .before_search
+            .push(pass("move_boundary", "move_boundary", items, why));
+    }
+    solver.before_search.push(PassPlan::new(
+        "physics/advance_clock",
+        "advance_clock",
+        Items::Once,
+        "counts the step",
+    ));
     let why = match fluid.density_from {
         DensityFrom::Summation => "density by summation (Rojas 2013, Eq. 1), and pressure",
         DensityFrom::Continuity => "density by continuity, and pressure",
     };
-    solver.after_search.push(pass("density", "find_density", why));
+    solver
+        .after_search
+        .push(pass("density", "find_density", free, why));
     if walls {
         let why = "boundary particles take on the fluid's pressure and velocity (Adami 2012)";
         solver
             .after_search
-            .push(pass("boundary_state", "extend_to_boundary", why));
+            .push(pass("boundary_state", "extend_to_boundary", reached, why));
+    }
+    if knows_reach {
+        let why = "the state of boundary particles out of reach, which have no fluid beside them";
+        solver
+            .once_searched
+            .push(pass("boundary_state", "extend_to_unreached", all, why));
+    }
+    if rests {
+        let why = "particles into the `next_` buffers too: steps leave out boundary particles out of reach";
+        solver.once_searched.push(PassPlan {
+            flipped: true,
+            ..PassPlan::new("storage/lists/keep", "keep_particles", all, why)
+        });
     }
     if tension {
         let why = "where the surface is, for its tension (Morris 2000)";
         solver
             .after_search
-            .push(pass("surface_normal", "find_surface", why));
+            .push(pass("surface_normal", "find_surface", free, why));
     }
     if terms.stress {
         let why = "velocity gradient and viscous stress (Rojas 2013, Eq. 4)";
-        solver.after_search.push(pass("stress", "find_stress", why));
+        solver.after_search.push(pass("stress", "find_stress", free, why));
     }
     if !euler {
         let why = "forces at the new positions";
         solver
             .after_search
-            .push(pass("velocity_verlet", "sum_fluid_forces", why));
-        solver.after_search.push(super::kick());
+            .push(pass("velocity_verlet", "sum_fluid_forces", free, why));
+        solver.after_search.push(PassPlan {
+            items: free,
+            ..super::kick()
+        });
     }
     if statistics {
         buffers.push(BufferPlan::constant(
@@ -290,7 +323,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     }
     if request.measures() {
         let why = "energies, densities and measured columns, once a frame";
-        solver.measure.push(pass("measure", "measure_fluid", why));
+        solver.measure.push(pass("measure", "measure_fluid", all, why));
     }
     solver
 }

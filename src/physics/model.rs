@@ -76,6 +76,8 @@ pub struct Solver {
     pub before_search: Vec<PassPlan>,
     /// On the particles as the search left them.
     pub after_search: Vec<PassPlan>,
+    /// Behind those, in steps that search. Where no step does without a search, none of them is needed.
+    pub once_searched: Vec<PassPlan>,
     /// Once a frame, when somebody asks for what it measures.
     pub measure: Vec<PassPlan>,
     pub obstacles: Obstacles,

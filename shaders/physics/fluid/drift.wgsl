@@ -13,9 +13,6 @@
 #if adaptive_step
 #import physics/fluid/note
 #end
-#if boundary_particles
-#import physics/fluid/wall_motion
-#end
 
 var<storage, read> acceleration: array<Packed>;
 var<storage, read_write> next_acceleration: array<Packed>;
@@ -23,20 +20,13 @@ var<storage, read_write> next_acceleration: array<Packed>;
 @compute @workgroup_size(GROUP_SIZE)
 fn drift_fluid(thread: Thread) {
     let i = item_index(thread);
-    if i >= parameters.particle_count {
+    if i >= parameters.particle_count || is_boundary(i) {
         return;
     }
     let dt = time_step();
     let x = unpack(position[i]);
     let deviation = fluid_state[i].x;
     next_acceleration[i] = acceleration[i];
-#if boundary_particles
-    if is_boundary(i) {
-        let v = wall_velocity(i);
-        leave_fluid(i, wrapped(x + dt * v.motion), v.motion + v.surface, deviation);
-        return;
-    }
-#end
     let a = unpack(acceleration[i]);
     var v = unpack(velocity[i]) + dt * a;
     var moved = wrapped(x + dt * (v - 0.5 * dt * a));

@@ -12,6 +12,26 @@
 #import physics/measure
 #end
 
+#if column_contacts
+// Particles within the support of particle i. Nobody asks that of boundary particles, which may have no lists.
+fn reached_by(i: u32) -> u32 {
+    var reached = 0u;
+    if is_boundary(i) {
+        return reached;
+    }
+    let x = unpack(position[i]);
+    let home = around(i, x);
+    for (var k = 0u; k < RANGES; k++) {
+        let range = candidate_range(home, k);
+        for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
+            let j = candidate(slot);
+            reached += select(0u, 1u, within(toward(x, j), fluid.support) && j != i);
+        }
+    }
+    return reached;
+}
+#end
+
 @compute @workgroup_size(GROUP_SIZE)
 fn measure_fluid(thread: Thread) {
     let i = item_index(thread);
@@ -23,17 +43,7 @@ fn measure_fluid(thread: Thread) {
         let state = fluid_state[i];
         let own = material_of(i);
 #if column_contacts
-        let x = unpack(position[i]);
-        let home = around(i, x);
-        var reached = 0u;
-        for (var k = 0u; k < RANGES; k++) {
-            let range = candidate_range(home, k);
-            for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
-                let j = candidate(slot);
-                reached += select(0u, 1u, within(toward(x, j), fluid.support) && j != i);
-            }
-        }
-        contacts[i] = reached;
+        contacts[i] = reached_by(i);
 #end
 #if column_pressure
         pressure[i] = state.y;
