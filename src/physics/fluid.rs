@@ -9,7 +9,7 @@ use super::collider::{Obstacles, velocity_between};
 use super::dem::{bounds, has_wall};
 use super::formulas::{self, DENSITY, FORCES, Terms};
 use super::kernels;
-use super::layout::{Fluid, Material, Measure, Planes, Rim, Sums};
+use super::layout::{Fluid, Material, Measure, PACKED_BYTES, Planes, Rim, Sums};
 use super::model::{Fault, FromState, Model, OwnFigures, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::neighbors::lists;
@@ -25,6 +25,9 @@ pub const FLAG: &str = "fluid";
 const LONGEST_SHIFT: f64 = 0.05;
 /// The shift of δ⁺-SPH in units of h × expected speed (Sun 2017, with its h half of the support).
 const USUAL_SHIFT: f64 = 4.0;
+
+/// Bytes of a `PairState` (`shaders/physics/fluid/pair_state.wgsl`).
+const PAIR_STATE_BYTES: u64 = 2 * PACKED_BYTES;
 
 /// The row of weakly compressible fluids.
 pub(super) const MODEL: Model = Model {
@@ -212,6 +215,8 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         Fluid::LAYOUT.size,
         "coefficients of the fluid",
     ));
+    let why = "position, density, velocity and pressure of each particle, as forces load them";
+    buffers.push(BufferPlan::storage("pair_state", scene.capacity.into(), PAIR_STATE_BYTES, why));
     if planes {
         let why = "sides of the domain beyond which the fluid goes on";
         buffers.push(BufferPlan::constant("planes", &planes_of(scene, fluid), why));
@@ -285,7 +290,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         let why = "the state of boundary particles out of reach, which have no fluid beside them";
         solver
             .once_searched
-            .push(pass("boundary_state", "extend_to_unreached", all, why));
+            .push(pass("unreached", "extend_to_unreached", all, why));
     }
     if rests {
         let why = "particles into the `next_` buffers too: steps leave out boundary particles out of reach";

@@ -1,0 +1,25 @@
+// Once a search, the state of boundary particles out of reach: no fluid is beside them.
+#flag writes_state
+#import common/thread
+#import common/vector
+#import physics/fluid/boundary_particles
+#import physics/fluid/beside
+#import storage/lists/reach_word
+#import fields/position
+#import fields/velocity
+#if continuity
+#import fields/density_deviation/write
+#end
+
+@compute @workgroup_size(GROUP_SIZE)
+fn extend_to_unreached(thread: Thread) {
+    let i = item_index(thread);
+    if i >= parameters.particle_count || !is_boundary(i) || is_reached(i) {
+        return;
+    }
+    extend(i, unpack(position[i]), unpack(velocity[i]), Beside());
+#if continuity
+    // As a step would leave it.
+    density_deviation[i] = fluid_state[i].x;
+#end
+}
