@@ -7,9 +7,10 @@
 #import storage/lists/watch
 #end
 
-fn leave(i: u32, x: Vector, v: Vector) {
+// The velocity with what stands beside it.
+fn leave(i: u32, x: Vector, v: Packed) {
     next_position[i] = pack(x);
-    next_velocity[i] = pack(v);
+    next_velocity[i] = v;
     keep_fields(i);
 #if lists
     watch_list(i, x);

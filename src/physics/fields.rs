@@ -3,6 +3,8 @@
 //! - `fields/NAME` and `fields/next_NAME` declare a buffer for reading, `fields/NAME/write` and so on for writing too;
 //! - `fields/place` takes a particle from where a step left it to its slot: `place(i, slot)`;
 //! - `fields/keep` leaves for the search what no step changes: `keep_fields(i)`;
+//! - `fields/NAME` of a field that is the spare number of a vector has `NAME_of(i)`, and `fields/VECTOR/pack` puts both
+//!   together: `pack_VECTOR(v, NAME)`;
 //! - `fields/measured` declares what a measure writes;
 //! - `fields/NAME/color` is the role `<column>` of pictures: `column(i)`.
 
@@ -27,7 +29,7 @@ pub fn plan(scene: &Scene, columns: &[Column], variant: &mut Variant) -> Vec<Buf
     variant.modules.extend(modules(&fields));
     let each = u64::from(scene.capacity);
     let mut buffers = Vec::new();
-    for field in fields {
+    for field in fields.iter().filter(|field| field.beside.is_none()) {
         let bytes = field.kind.bytes(scene.dimensions);
         buffers.push(BufferPlan::storage(field.name, each, bytes, field.about));
         if field.travels != Travels::No {
@@ -51,6 +53,10 @@ pub fn modules(fields: &[Field]) -> BTreeMap<String, String> {
     let [mut placed, mut kept] = [const { String::new() }; 2];
     for field in fields {
         let name = field.name;
+        if let Some(vector) = field.beside {
+            put_beside(&mut modules, name, vector);
+            continue;
+        }
         declare(&mut modules, name, field);
         if field.travels != Travels::No {
             declare(&mut modules, &format!("next_{name}"), field);
@@ -82,6 +88,18 @@ pub fn modules(fields: &[Field]) -> BTreeMap<String, String> {
     modules.insert("fields/keep".into(), keep);
     modules.insert("fields/measured".into(), measured);
     modules
+}
+
+/// The modules of a field that is the spare number of a vector.
+fn put_beside(modules: &mut BTreeMap<String, String>, name: &str, vector: &str) {
+    let read = format!(
+        "#import fields/{vector}\nfn {name}_of(i: u32) -> f32 {{\n    return number_of({vector}[i]);\n}}"
+    );
+    modules.insert(format!("fields/{name}"), read);
+    let pack = format!(
+        "#import common/vector\nfn pack_{vector}(v: Vector, {name}: f32) -> Packed {{\n    return pack_with(v, {name});\n}}"
+    );
+    modules.insert(format!("fields/{vector}/pack"), pack);
 }
 
 /// The modules that declare a buffer.

@@ -28,7 +28,7 @@ fn move_grains(thread: Thread) {
     clamp_to_walls(&moved, &v);
 #end
     watch(id[i], x, &moved, &v);
-    leave(i, moved, v);
+    leave(i, moved, pack(v));
 #if adaptive_step
     note_extremes(a, length(v), 0.0);
 #end
