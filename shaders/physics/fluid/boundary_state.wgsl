@@ -4,6 +4,7 @@
 #import physics/fluid/pairs
 #import physics/fluid/beside
 #import physics/fluid/numbered
+
 @compute @workgroup_size(GROUP_SIZE)
 fn extend_to_boundary(thread: Thread) {
     let number = item_index(thread);

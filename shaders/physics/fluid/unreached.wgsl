@@ -6,9 +6,11 @@
 #import physics/fluid/beside
 #import storage/lists/reach_word
 #import fields/position
-#import fields/velocity
 #if continuity
-#import fields/density_deviation/write
+#import fields/velocity/write
+#import fields/velocity/pack
+#else
+#import fields/velocity
 #end
 
 @compute @workgroup_size(GROUP_SIZE)
@@ -17,9 +19,10 @@ fn extend_to_unreached(thread: Thread) {
     if i >= parameters.particle_count || !is_boundary(i) || is_reached(i) {
         return;
     }
-    extend(i, unpack(position[i]), unpack(velocity[i]), Beside());
+    let v = unpack(velocity[i]);
+    extend(i, unpack(position[i]), v, Beside());
 #if continuity
     // As a step would leave it.
-    density_deviation[i] = fluid_state[i].x;
+    velocity[i] = pack_velocity(v, fluid_state[i].x);
 #end
 }
