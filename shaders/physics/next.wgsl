@@ -2,7 +2,6 @@
 #import physics/present
 #import fields/next_position/write
 #import fields/next_velocity/write
-#import fields/keep
 #if lists
 #import storage/lists/watch
 #end
@@ -11,7 +10,6 @@
 fn leave(i: u32, x: Vector, v: Packed) {
     next_position[i] = pack(x);
     next_velocity[i] = v;
-    keep_fields(i);
 #if lists
     watch_list(i, x);
 #end

@@ -9,7 +9,7 @@ use super::collider::{Obstacles, velocity_between};
 use super::dem::{bounds, has_wall};
 use super::formulas::{self, DENSITY, FORCES, Terms};
 use super::kernels;
-use super::layout::{Fluid, Material, Measure, PACKED_BYTES, Planes, Rim, Sums};
+use super::layout::{Fluid, Material, Measure, PACKED_BYTES, Packed, Planes, Rim, Sums};
 use super::model::{Fault, FromState, Model, OwnFigures, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::neighbors::lists;
@@ -216,7 +216,12 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         "coefficients of the fluid",
     ));
     let why = "position, density, velocity and pressure of each particle, as forces load them";
-    buffers.push(BufferPlan::storage("pair_state", scene.capacity.into(), PAIR_STATE_BYTES, why));
+    buffers.push(BufferPlan::storage(
+        "pair_state",
+        scene.capacity.into(),
+        PAIR_STATE_BYTES,
+        why,
+    ));
     if planes {
         let why = "sides of the domain beyond which the fluid goes on";
         buffers.push(BufferPlan::constant("planes", &planes_of(scene, fluid), why));
@@ -226,26 +231,16 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         buffers.push(BufferPlan::constant("rim", &rim_of(scene, fluid), why));
     }
     if several {
-        let count = fluid.materials.len() as u64;
-        buffers.push(BufferPlan::storage(
-            "materials",
-            count,
-            Material::LAYOUT.size as u64,
-            "the fluids",
-        ));
+        variant.constant("MATERIALS", fluid.materials.len() as u32);
+        let bytes = fluid.materials.len() * Material::LAYOUT.size;
+        buffers.push(BufferPlan::uniform("materials", bytes, "the fluids"));
     }
     if walls {
         let why = "boundary particles: velocity of the surface, and whose they are";
         buffers.push(BufferPlan::table("boundary", &boundary(scene), why));
     }
     if moving {
-        let count = scene.colliders.len() as u64;
-        buffers.push(BufferPlan::storage(
-            "body_velocity",
-            count,
-            16,
-            "how obstacles move",
-        ));
+        buffers.push(body_velocity(scene, variant));
     }
 
     let pass = |file: &str, entry, items, why: &str| {
@@ -326,11 +321,21 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             "where energies are zero",
         ));
     }
-    if request.measures() {
-        let why = "energies, densities and measured columns, once a frame";
-        solver.measure.push(pass("measure", "measure_fluid", all, why));
-    }
+    solver.measure = measures(request);
     solver
+}
+
+/// What is measured once a frame: figures for statistics, and columns, each in a pass of its own, so that neither binds too
+/// many buffers.
+pub(super) fn measures(request: &Request) -> Vec<PassPlan> {
+    let pass = |file: &str, entry, why: &str| {
+        PassPlan::new(&format!("physics/fluid/{file}"), entry, Items::Particles, why)
+    };
+    let figures = pass("measure", "measure_fluid", "energies and densities, once a frame");
+    let columns = pass("columns", "measure_columns", "measured columns, once a frame");
+    let wanted = [(request.statistics, figures), (request.measures_columns(), columns)];
+    let wanted = wanted.into_iter().filter(|(is_wanted, _)| *is_wanted);
+    wanted.map(|(_, pass)| pass).collect()
 }
 
 /// The fluid's numbers for the shaders.
@@ -434,6 +439,17 @@ pub(super) fn rim_of(scene: &Scene, fluid: &scene::fluid::Fluid) -> Rim {
         open_lower,
         open_upper,
     }
+}
+
+/// How fast each obstacle moves its boundary particles.
+pub(super) fn body_velocity(scene: &Scene, variant: &mut Variant) -> BufferPlan {
+    let bodies = scene.colliders.len();
+    variant.constant("BODIES", bodies as u32);
+    BufferPlan::uniform(
+        "body_velocity",
+        bodies * size_of::<Packed>(),
+        "how obstacles move",
+    )
 }
 
 /// Surface velocity of each boundary particle, and the number of its body.

@@ -35,7 +35,7 @@ fn move_fluid(thread: Thread) {
 #if rim
     keep_within_rim(&moved, &v);
 #end
-    watch(id[i], x, &moved, &v);
+    watch(i, x, &moved, &v);
     leave_fluid(i, moved, v, deviation);
 #if adaptive_step
     note_fluid(forces.acceleration, v, deviation);
