@@ -10,8 +10,8 @@ use sliceflow::neighbors::{Room, STORAGES, first_grid, lists};
 use sliceflow::output::columns_named;
 use sliceflow::plan::{Phase, Plan, Wanted};
 use sliceflow::scene::column::{COLUMNS, Source};
-use sliceflow::scene::{Scene, library, load};
 use sliceflow::scene::model::View;
+use sliceflow::scene::{Scene, library, load};
 
 fn plan(scene: &Scene, wanted: &Wanted) -> Plan {
     Plan::new(scene, &Limits::PROMISED, wanted).expect("a plan")

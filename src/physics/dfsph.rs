@@ -9,7 +9,9 @@
 
 use super::collider::Obstacles;
 use super::dem::has_wall;
-use super::fluid::{self, FLAG, body_velocity, boundary, coefficients, given, kernel_file, measure, measures, rim_of};
+use super::fluid::{
+    self, FLAG, body_velocity, boundary, coefficients, given, kernel_file, measure, measures, rim_of,
+};
 use super::kernels;
 use super::layout::{Convergence, Dfsph, Fluid, PACKED_BYTES};
 use super::model::{Model, Request, Solver, Written};

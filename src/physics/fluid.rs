@@ -333,7 +333,10 @@ pub(super) fn measures(request: &Request) -> Vec<PassPlan> {
     };
     let figures = pass("measure", "measure_fluid", "energies and densities, once a frame");
     let columns = pass("columns", "measure_columns", "measured columns, once a frame");
-    let wanted = [(request.statistics, figures), (request.measures_columns(), columns)];
+    let wanted = [
+        (request.statistics, figures),
+        (request.measures_columns(), columns),
+    ];
     let wanted = wanted.into_iter().filter(|(is_wanted, _)| *is_wanted);
     wanted.map(|(_, pass)| pass).collect()
 }
