@@ -2,13 +2,16 @@
 
 mod common;
 
+use std::path::Path;
+
 use sliceflow::error::Error;
 use sliceflow::gpu::{Limits, Shader};
 use sliceflow::neighbors::{Room, STORAGES, first_grid, lists};
 use sliceflow::output::columns_named;
 use sliceflow::plan::{Phase, Plan, Wanted};
-use sliceflow::scene::Scene;
+use sliceflow::scene::column::{COLUMNS, Source};
 use sliceflow::scene::model::View;
+use sliceflow::scene::{Scene, library, load};
 
 fn plan(scene: &Scene, wanted: &Wanted) -> Plan {
     Plan::new(scene, &Limits::PROMISED, wanted).expect("a plan")
@@ -407,4 +410,33 @@ fn everything_that_an_adapter_limits_is_checked() {
         let error = Plan::new(&scene, &limits, &wanted).expect_err(told).to_string();
         assert!(error.contains(told) && error.contains("help: "), "{error}");
     }
+}
+
+/// WebGPU promises 8 storage buffers per stage everywhere.
+#[test]
+fn no_pass_of_a_shipped_scene_binds_more_than_8_storage_buffers() {
+    let columns = COLUMNS.iter().copied().filter(|c| c.source == Source::Measured);
+    let measured: Vec<_> = columns.collect();
+    let mut most = 0;
+    for name in library::names() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/scenes/{name}.json"));
+        let scene = load::load(&file, &[]).expect("shipped scenes are sound");
+        let wanted = Wanted {
+            statistics: true,
+            columns: measured.clone(),
+            view: Some(View::Both),
+            voxel_map: Some(64),
+            sensors: !scene.sensors.list.is_empty(),
+            ..Default::default()
+        };
+        let limits = Limits {
+            storage_buffers: 8,
+            ..Limits::PROMISED
+        };
+        match Plan::new(&scene, &limits, &wanted) {
+            Ok(plan) => most = plan.most_storage_buffers().1.max(most),
+            Err(error) => panic!("{name}: {error}"),
+        }
+    }
+    assert!(most > 4, "{most}: nothing was counted");
 }

@@ -76,6 +76,11 @@ impl BufferPlan {
         Self::uniform(name, size_of::<T>(), why).holding(std::slice::from_ref(value))
     }
 
+    /// A uniform buffer that holds a small table from the start.
+    pub fn uniforms<T: bytemuck::NoUninit>(name: &str, values: &[T], why: impl Into<String>) -> Self {
+        Self::uniform(name, size_of_val(values), why).holding(values)
+    }
+
     /// A storage buffer that holds these elements from the start.
     pub fn table<T: bytemuck::NoUninit>(name: &str, values: &[T], why: impl Into<String>) -> Self {
         Self::storage(name, values.len() as u64, size_of::<T>() as u64, why).holding(values)

@@ -35,8 +35,6 @@ impl SearchState {
 
 shared_struct! {
     pub struct ListState {
-        /// Not zero: a particle has moved so far that a neighbor may be missing from a list.
-        pub moved: u32,
         /// List of the last search, in full.
         pub longest: u32,
         /// Steps that searched, since the run began.

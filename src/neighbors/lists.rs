@@ -274,9 +274,8 @@ pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
         .renewed(),
     );
     search.passes = when(&search.passes, Items::SearchedParticles);
-    let build = "storage/lists/build";
     search.passes.push(PassPlan::new(
-        build,
+        "storage/lists/build",
         "list_candidates",
         if every_step(scene) || knows_reach(scene) {
             Items::SearchedFreeParticles
@@ -294,7 +293,7 @@ pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
                 "prefix sum over the boundary particles in reach of fluid",
             ),
             PassPlan::new(
-                build,
+                "storage/lists/build_reached",
                 "list_reached",
                 Items::SearchedParticles,
                 "fluid around the boundary particles in reach",

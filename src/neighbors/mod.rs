@@ -20,7 +20,7 @@ pub use storage::STORAGES;
 
 use glam::Vec3;
 
-use crate::gpu::{BufferPlan, DISPATCHES, PassPlan, Variant};
+use crate::gpu::{BufferPlan, DISPATCHES, Items, PassPlan, Variant};
 use crate::scene::model::Axis;
 use crate::scene::{Dimensions, Scene};
 use addressing::RoomRule;
@@ -186,6 +186,17 @@ pub fn plan(scene: &Scene, grid: Grid, variant: &mut Variant) -> Search {
         .without(lists::FLAGS);
     if lists::wanted(scene) {
         lists::plan(&mut search, scene, variant);
+    }
+    if storage::row(scene.neighbors.storage).sorts {
+        search.passes.push(PassPlan::new(
+            "storage/sorted/keep",
+            "keep_fields",
+            match lists::wanted(scene) {
+                true => Items::SearchedParticles,
+                false => Items::Particles,
+            },
+            "what no step changes, for the next search",
+        ));
     }
     for flag in FLAGS {
         variant.flag(flag, search.flags.contains(flag));

@@ -9,7 +9,7 @@ use super::collider::{Obstacles, velocity_between};
 use super::dem::{bounds, has_wall};
 use super::formulas::{self, DENSITY, FORCES, Terms};
 use super::kernels;
-use super::layout::{Fluid, Material, Measure, Planes, Rim, Sums};
+use super::layout::{Fluid, Material, Measure, PACKED_BYTES, Packed, Planes, Rim, Sums};
 use super::model::{Fault, FromState, Model, OwnFigures, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::neighbors::lists;
@@ -25,6 +25,9 @@ pub const FLAG: &str = "fluid";
 const LONGEST_SHIFT: f64 = 0.05;
 /// The shift of δ⁺-SPH in units of h × expected speed (Sun 2017, with its h half of the support).
 const USUAL_SHIFT: f64 = 4.0;
+
+/// Bytes of a `PairState` (`shaders/physics/fluid/pair_state.wgsl`).
+const PAIR_STATE_BYTES: u64 = 2 * PACKED_BYTES;
 
 /// The row of weakly compressible fluids.
 pub(super) const MODEL: Model = Model {
@@ -212,6 +215,13 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         Fluid::LAYOUT.size,
         "coefficients of the fluid",
     ));
+    let why = "position, density, velocity and pressure of each particle, as forces load them";
+    buffers.push(BufferPlan::storage(
+        "pair_state",
+        scene.capacity.into(),
+        PAIR_STATE_BYTES,
+        why,
+    ));
     if planes {
         let why = "sides of the domain beyond which the fluid goes on";
         buffers.push(BufferPlan::constant("planes", &planes_of(scene, fluid), why));
@@ -221,26 +231,16 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         buffers.push(BufferPlan::constant("rim", &rim_of(scene, fluid), why));
     }
     if several {
-        let count = fluid.materials.len() as u64;
-        buffers.push(BufferPlan::storage(
-            "materials",
-            count,
-            Material::LAYOUT.size as u64,
-            "the fluids",
-        ));
+        variant.constant("MATERIALS", fluid.materials.len() as u32);
+        let bytes = fluid.materials.len() * Material::LAYOUT.size;
+        buffers.push(BufferPlan::uniform("materials", bytes, "the fluids"));
     }
     if walls {
         let why = "boundary particles: velocity of the surface, and whose they are";
         buffers.push(BufferPlan::table("boundary", &boundary(scene), why));
     }
     if moving {
-        let count = scene.colliders.len() as u64;
-        buffers.push(BufferPlan::storage(
-            "body_velocity",
-            count,
-            16,
-            "how obstacles move",
-        ));
+        buffers.push(body_velocity(scene, variant));
     }
 
     let pass = |file: &str, entry, items, why: &str| {
@@ -285,7 +285,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         let why = "the state of boundary particles out of reach, which have no fluid beside them";
         solver
             .once_searched
-            .push(pass("boundary_state", "extend_to_unreached", all, why));
+            .push(pass("unreached", "extend_to_unreached", all, why));
     }
     if rests {
         let why = "particles into the `next_` buffers too: steps leave out boundary particles out of reach";
@@ -321,11 +321,24 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             "where energies are zero",
         ));
     }
-    if request.measures() {
-        let why = "energies, densities and measured columns, once a frame";
-        solver.measure.push(pass("measure", "measure_fluid", all, why));
-    }
+    solver.measure = measures(request);
     solver
+}
+
+/// What is measured once a frame: figures for statistics, and columns, each in a pass of its own, so that neither binds too
+/// many buffers.
+pub(super) fn measures(request: &Request) -> Vec<PassPlan> {
+    let pass = |file: &str, entry, why: &str| {
+        PassPlan::new(&format!("physics/fluid/{file}"), entry, Items::Particles, why)
+    };
+    let figures = pass("measure", "measure_fluid", "energies and densities, once a frame");
+    let columns = pass("columns", "measure_columns", "measured columns, once a frame");
+    let wanted = [
+        (request.statistics, figures),
+        (request.measures_columns(), columns),
+    ];
+    let wanted = wanted.into_iter().filter(|(is_wanted, _)| *is_wanted);
+    wanted.map(|(_, pass)| pass).collect()
 }
 
 /// The fluid's numbers for the shaders.
@@ -429,6 +442,17 @@ pub(super) fn rim_of(scene: &Scene, fluid: &scene::fluid::Fluid) -> Rim {
         open_lower,
         open_upper,
     }
+}
+
+/// How fast each obstacle moves its boundary particles.
+pub(super) fn body_velocity(scene: &Scene, variant: &mut Variant) -> BufferPlan {
+    let bodies = scene.colliders.len();
+    variant.constant("BODIES", bodies as u32);
+    BufferPlan::uniform(
+        "body_velocity",
+        bodies * size_of::<Packed>(),
+        "how obstacles move",
+    )
 }
 
 /// Surface velocity of each boundary particle, and the number of its body.

@@ -517,7 +517,12 @@ fn state_buffers(scene: &Scene) -> Vec<BufferPlan> {
             "steps done, for the guard and moving obstacles",
         )
         .reported(),
-        BufferPlan::table("guard", &[guard], "the first particle that went wrong, if any").reported(),
+        BufferPlan::table(
+            "guard",
+            &[guard],
+            "what moves note of particles: the first one that went wrong, the fastest one",
+        )
+        .reported(),
     ]
 }
 

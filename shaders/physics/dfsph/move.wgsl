@@ -12,8 +12,6 @@
 // Before, how the particle goes, m/s; then its position, and in w the impulse that corrected it, as a pressure, Pa.
 #import fields/next_position/write
 #import fields/next_velocity/write
-#import fields/id
-#import fields/keep
 #if faces
 #import physics/fluid/coefficients
 #import physics/fluid/rim
@@ -47,10 +45,9 @@ fn move_fluid(thread: Thread) {
     keep_within_rim(&moved, &v);
 #end
 #end
-    watch(id[i], x, &moved, &v);
+    watch(i, x, &moved, &v);
     next_position[i] = pack_with(moved, own[i].impulse / time_step());
     next_velocity[i] = pack_with(v, pressure);
-    keep_fields(i);
 #if adaptive_step
     note_extremes(first(parameters.gravity), length(v), 0.0);
 #end

@@ -2,38 +2,8 @@
 #flag writes_state
 #import common/thread
 #import physics/fluid/pairs
-#import physics/fluid/material
-#import physics/fluid/state
+#import physics/fluid/beside
 #import physics/fluid/numbered
-#if viscous_velocities
-// The velocity that viscous forces see: the fluid's own, and one of boundary particles that makes the fluid stick.
-var<storage, read_write> viscous_velocity: array<Packed>;
-#end
-
-// Sums over the fluid around a boundary particle.
-struct Beside {
-    weights: f32,
-    pressure: f32,
-    weight_moment: Vector,
-    stiffness: f32,
-#if viscous_velocities
-    velocity: Vector,
-#end
-}
-
-// Sets the state of boundary particle i.
-fn extend(i: u32, beside: Beside) {
-    let none = beside.weights <= 0.0;
-    let share = select(1.0 / beside.weights, 0.0, none);
-    let inside = (beside.pressure - dot(first(parameters.gravity), beside.weight_moment)) * share;
-    let p = allowed_pressure(select(inside, fluid.background_pressure, none));
-    let e = deviation_at(select(beside.stiffness * share, fluid.stiffness, none), p);
-    fluid_state[i] = vec2f(e, p);
-#if viscous_velocities
-    let v = unpack(velocity[i]);
-    viscous_velocity[i] = pack(select(2.0 * v - beside.velocity * share, v, none));
-#end
-}
 
 @compute @workgroup_size(GROUP_SIZE)
 fn extend_to_boundary(thread: Thread) {
@@ -42,9 +12,10 @@ fn extend_to_boundary(thread: Thread) {
     if i >= parameters.particle_count {
         return;
     }
+    let v = unpack(velocity[i]);
     if !is_boundary(i) {
 #if viscous_velocities
-        viscous_velocity[i] = pack(unpack(velocity[i]));
+        viscous_velocity[i] = pack(v);
 #end
         return;
     }
@@ -70,26 +41,5 @@ fn extend_to_boundary(thread: Thread) {
             }
         }
     }
-    extend(i, beside);
+    extend(i, x, v, beside);
 }
-
-#if boundary_in_reach
-#import storage/lists/reach_word
-#if continuity
-#import fields/density_deviation/write
-#end
-
-// Once a search, boundary particles out of reach: no fluid is beside them.
-@compute @workgroup_size(GROUP_SIZE)
-fn extend_to_unreached(thread: Thread) {
-    let i = item_index(thread);
-    if i >= parameters.particle_count || !is_boundary(i) || is_reached(i) {
-        return;
-    }
-    extend(i, Beside());
-#if continuity
-    // As a step would leave it.
-    density_deviation[i] = fluid_state[i].x;
-#end
-}
-#end

@@ -5,7 +5,7 @@
 #import physics/guard
 #import physics/fluid/pairs
 #import physics/fluid/material
-#import physics/fluid/state
+#import physics/fluid/pair_state
 #import physics/fluid/next
 #if rim
 #import physics/fluid/rim
@@ -24,8 +24,10 @@ fn drift_fluid(thread: Thread) {
         return;
     }
     let dt = time_step();
-    let x = unpack(position[i]);
-    let deviation = fluid_state[i].x;
+    // Velocities have been corrected since.
+    let found = pair_state_at(i).place;
+    let x = unpack(found);
+    let deviation = number_of(found);
     next_acceleration[i] = acceleration[i];
     let a = unpack(acceleration[i]);
     var v = unpack(velocity[i]) + dt * a;
@@ -33,7 +35,7 @@ fn drift_fluid(thread: Thread) {
 #if rim
     keep_within_rim(&moved, &v);
 #end
-    watch(id[i], x, &moved, &v);
+    watch(i, x, &moved, &v);
     leave_fluid(i, moved, v, deviation);
 #if adaptive_step
     note_fluid(a, v, deviation);

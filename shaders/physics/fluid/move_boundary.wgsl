@@ -6,7 +6,7 @@
 #import physics/fluid/boundary_particles
 #import physics/fluid/coefficients
 #import physics/fluid/wall_motion
-#import physics/fluid/state
+#import physics/fluid/pair_state
 #import physics/fluid/next
 #import cells/images
 #if resting_boundary
@@ -28,8 +28,9 @@ fn move_boundary(thread: Thread) {
         return;
     }
     let v = wall_velocity(i);
-    let moved = wrapped(unpack(position[i]) + time_step() * v.motion);
-    leave_fluid(i, moved, v.motion + v.surface, fluid_state[i].x);
+    let mine = pair_state_at(i);
+    let moved = wrapped(unpack(mine.place) + time_step() * v.motion);
+    leave_fluid(i, moved, v.motion + v.surface, number_of(mine.place));
 #if velocity_verlet
     next_acceleration[i] = acceleration[i];
 #end

@@ -19,10 +19,11 @@ fn move_fluid(thread: Thread) {
         return;
     }
     let dt = time_step();
-    let x = unpack(position[i]);
-    var deviation = fluid_state[i].x;
+    let mine = pair_state_at(i);
+    let x = unpack(mine.place);
+    var deviation = number_of(mine.place);
     let forces = forces_on(i);
-    var v = unpack(velocity[i]) + dt * forces.acceleration;
+    var v = unpack(mine.motion) + dt * forces.acceleration;
     var moved = x + dt * v;
 #if shifting
     let displacement = forces.shifting.displacement;
@@ -34,7 +35,7 @@ fn move_fluid(thread: Thread) {
 #if rim
     keep_within_rim(&moved, &v);
 #end
-    watch(id[i], x, &moved, &v);
+    watch(i, x, &moved, &v);
     leave_fluid(i, moved, v, deviation);
 #if adaptive_step
     note_fluid(forces.acceleration, v, deviation);

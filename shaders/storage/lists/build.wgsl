@@ -13,8 +13,6 @@
 
 // By their place among all boundary particles.
 var<storage, read_write> reach_mark: array<atomic<u32>>;
-// Number of boundary particles in reach, then they (storage/lists/reached.wgsl).
-var<storage, read_write> reached: array<u32>;
 #end
 
 var<storage, read_write> neighbor_list: array<u32>;
@@ -55,9 +53,11 @@ fn list_range(i: u32, row: u32, wall: bool, y: Vector, range: vec2u, count: vec2
             found.x += 1u;
 #end
 #if boundary_in_reach
+#if !lists_boundary
             if is_boundary(j) {
                 mark_reached(j);
             }
+#end
 #end
         }
     }
@@ -118,20 +118,3 @@ fn list_candidates(thread: Thread) {
 #end
     list_around(i, i, wall, x);
 }
-
-#if boundary_in_reach
-@compute @workgroup_size(GROUP_SIZE)
-fn list_reached(thread: Thread) {
-    let i = item_index(thread);
-    if i >= parameters.particle_count || !is_boundary(i) {
-        return;
-    }
-    let x = unpack(position[i]);
-    listed_position[i] = pack(x);
-    if is_reached(i) {
-        let place = reached_before(i);
-        reached[1u + place] = i;
-        list_around(i, parameters.free_count + place, true, x);
-    }
-}
-#end

@@ -9,6 +9,7 @@
 #import cells/grid
 #import cells/reallocation
 #import physics/clock
+#import physics/guard
 #if adaptive_step
 #import physics/step_control
 #end
@@ -83,11 +84,11 @@ fn decide_search() {
 #if lists_every_step
     let due = true;
 #else
-    let due = atomicLoad(&list_state.moved) != 0u || frame_ends();
+    let due = atomicLoad(&guard.far) != 0u || frame_ends();
 #end
     let returned = dispatch[DISPATCH_RETURNING].x != 0u;
     let goes_on = !due && steps_are_left();
-    atomicStore(&list_state.moved, 0u);
+    atomicStore(&guard.far, 0u);
     list_state.searches += u32(due);
     set_search(due);
     set_kept(!due);
