@@ -55,9 +55,15 @@ fn assert_same(one: &[Frame], two: &[Frame], what: &str) {
 
 /// The limit that leaves room for lists of so many neighbors, and for no more.
 fn room_for_lists(scene: &Scene, length: u32) -> String {
+    let grid = sliceflow::neighbors::first_grid(scene);
+    let room = sliceflow::neighbors::Room {
+        list: length,
+        reached: sliceflow::neighbors::lists::reached_at_start(scene, &grid),
+        ..Default::default()
+    };
     format!(
         "binding={}",
-        sliceflow::neighbors::lists::buffers(scene, length)[0].bytes
+        sliceflow::neighbors::lists::buffers(scene, room)[0].bytes
     )
 }
 

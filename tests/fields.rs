@@ -28,6 +28,7 @@ const TAG: Field = Field {
         let tags: Vec<u32> = new.ids.iter().map(|id| 2 * id).collect();
         bytemuck::cast_slice(&tags).to_vec()
     }),
+    beside: None,
     ends_in: None,
 };
 

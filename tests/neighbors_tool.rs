@@ -14,7 +14,7 @@ use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
 use sliceflow::gpu::device::Limits;
 use sliceflow::gpu::{AdapterChoice, Gpu};
-use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
+use sliceflow::neighbors::STORAGES;
 use sliceflow::output::npy;
 use sliceflow::plan::{Plan, Wanted};
 use sliceflow::scene::model::Addressing;
@@ -52,23 +52,21 @@ fn bare_points_are_a_scene_that_every_grid_searches() {
     for (dimensions, radius) in [(Dimensions::Two, 0.06), (Dimensions::Three, 0.13)] {
         let points = cloud(800, dimensions, 1e6);
         let expected = brute_force(&points, radius);
-        for addressing in ADDRESSINGS {
-            for storage in STORAGES {
-                let neighbors = Neighbors {
-                    addressing: addressing.kind,
-                    storage: storage.kind,
-                    slots: 32,
-                    ..Default::default()
-                };
-                let scene = Scene::of_points(&points, dimensions, radius, neighbors).unwrap();
-                let mut simulation = common::simulate(&scene, &Wanted::default());
-                simulation.next_frame().unwrap();
-                let found = simulation.neighbor_lists().unwrap();
-                for (i, ids) in expected.iter().enumerate() {
-                    let list = &found.ids[found.start[i] as usize..found.start[i + 1] as usize];
-                    let grid = (addressing.name, storage.name);
-                    assert_eq!(list, ids, "{grid:?}, {dimensions:?}: point {i}");
-                }
+        for (addressing, storage) in common::grids_in_turn(dimensions.count()) {
+            let neighbors = Neighbors {
+                addressing: addressing.kind,
+                storage: storage.kind,
+                slots: 32,
+                ..Default::default()
+            };
+            let scene = Scene::of_points(&points, dimensions, radius, neighbors).unwrap();
+            let mut simulation = common::simulate(&scene, &Wanted::default());
+            simulation.next_frame().unwrap();
+            let found = simulation.neighbor_lists().unwrap();
+            for (i, ids) in expected.iter().enumerate() {
+                let list = &found.ids[found.start[i] as usize..found.start[i + 1] as usize];
+                let grid = (addressing.name, storage.name);
+                assert_eq!(list, ids, "{grid:?}, {dimensions:?}: point {i}");
             }
         }
     }

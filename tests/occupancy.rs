@@ -183,43 +183,39 @@ fn hash_tables_are_at_most_half_full() {
 fn every_search_has_what_the_host_counts() {
     for dimensions in [2, 3] {
         let points = points(dimensions, 3);
-        for axis in axes(dimensions) {
-            for addressing in ADDRESSINGS {
-                for storage in STORAGES {
-                    let mut scene = scene_of(dimensions, axis, &points);
-                    scene.neighbors.addressing = addressing.kind;
-                    scene.neighbors.storage = storage.kind;
-                    let wanted = Wanted {
-                        statistics: true,
-                        ..Default::default()
-                    };
-                    let mut simulation = common::simulate(&scene, &wanted);
-                    simulation.next_frame().unwrap();
-                    let frame = simulation.finish_frame().unwrap().unwrap();
-                    let device = frame.statistics.unwrap();
+        for ((addressing, storage), axis) in common::grids_and_axes(dimensions) {
+            let mut scene = scene_of(dimensions, axis, &points);
+            scene.neighbors.addressing = addressing.kind;
+            scene.neighbors.storage = storage.kind;
+            let wanted = Wanted {
+                statistics: true,
+                ..Default::default()
+            };
+            let mut simulation = common::simulate(&scene, &wanted);
+            simulation.next_frame().unwrap();
+            let frame = simulation.finish_frame().unwrap().unwrap();
+            let device = frame.statistics.unwrap();
 
-                    let census = Census::of(&scene, &points);
-                    let host = Allocation::of(&scene, &census);
-                    let figures = census.figures();
-                    let label = format!("{} × {}, {dimensions}D, {axis}", addressing.name, storage.name);
-                    assert_eq!(host.voxels, u64::from(device.voxels_allocated), "{label}");
-                    if let Some(slices) = &host.slices {
-                        assert_eq!(slices.len(), census.slices().len(), "{label}");
-                        // Slices beyond the domain hold nothing where those at its border take their particles.
-                        assert_eq!(slices.iter().sum::<u64>(), host.voxels, "{label}");
-                    }
-                    if addressing.name == "hash" {
-                        // Voxels share buckets.
-                        assert!(u64::from(device.voxels_occupied) <= figures.occupied, "{label}");
-                        assert!(device.voxels_occupied > 0 && host.overflow.is_none(), "{label}");
-                        continue;
-                    }
-                    assert_eq!(host.overflow, Some(device.overflow.into()), "{label}");
-                    assert_eq!(figures.occupied, u64::from(device.voxels_occupied), "{label}");
-                    assert_eq!(figures.with, device.voxels_with.map(u64::from), "{label}");
-                    assert_eq!(figures.with_more, u64::from(device.voxels_with_more), "{label}");
-                }
+            let census = Census::of(&scene, &points);
+            let host = Allocation::of(&scene, &census);
+            let figures = census.figures();
+            let label = format!("{} × {}, {dimensions}D, {axis}", addressing.name, storage.name);
+            assert_eq!(host.voxels, u64::from(device.voxels_allocated), "{label}");
+            if let Some(slices) = &host.slices {
+                assert_eq!(slices.len(), census.slices().len(), "{label}");
+                // Slices beyond the domain hold nothing where those at its border take their particles.
+                assert_eq!(slices.iter().sum::<u64>(), host.voxels, "{label}");
             }
+            if addressing.name == "hash" {
+                // Voxels share buckets.
+                assert!(u64::from(device.voxels_occupied) <= figures.occupied, "{label}");
+                assert!(device.voxels_occupied > 0 && host.overflow.is_none(), "{label}");
+                continue;
+            }
+            assert_eq!(host.overflow, Some(device.overflow.into()), "{label}");
+            assert_eq!(figures.occupied, u64::from(device.voxels_occupied), "{label}");
+            assert_eq!(figures.with, device.voxels_with.map(u64::from), "{label}");
+            assert_eq!(figures.with_more, u64::from(device.voxels_with_more), "{label}");
         }
     }
 }

@@ -2,13 +2,16 @@
 
 mod common;
 
+use std::path::Path;
+
 use sliceflow::error::Error;
 use sliceflow::gpu::{Limits, Shader};
-use sliceflow::neighbors::{STORAGES, lists};
+use sliceflow::neighbors::{Room, STORAGES, first_grid, lists};
 use sliceflow::output::columns_named;
 use sliceflow::plan::{Phase, Plan, Wanted};
-use sliceflow::scene::Scene;
+use sliceflow::scene::column::{COLUMNS, Source};
 use sliceflow::scene::model::View;
+use sliceflow::scene::{Scene, library, load};
 
 fn plan(scene: &Scene, wanted: &Wanted) -> Plan {
     Plan::new(scene, &Limits::PROMISED, wanted).expect("a plan")
@@ -250,7 +253,15 @@ fn lists_are_as_long_as_fits_and_left_out_where_the_usual_ones_do_not() {
             let usual = lists::usual_length(&scene);
             let roomy = plan(&scene, &Wanted::default());
             assert!(roomy.grid.list_capacity > usual);
-            let of_length = |length: u32| lists::buffers(&scene, length)[0].bytes;
+            let of = |list: u32, reached: u32| {
+                let room = Room {
+                    list,
+                    reached,
+                    ..Default::default()
+                };
+                lists::buffers(&scene, room)[0].bytes
+            };
+            let of_length = |length: u32| of(length, roomy.grid.reached_capacity);
             assert_eq!(
                 bytes_of(&roomy, "neighbor_list"),
                 Some(of_length(roomy.grid.list_capacity))
@@ -260,11 +271,15 @@ fn lists_are_as_long_as_fits_and_left_out_where_the_usual_ones_do_not() {
                 assert_eq!(fitted.lists_left_out, None);
                 assert_eq!(bytes_of(&fitted, "neighbor_list"), Some(of_length(length)));
             }
-            let small = binding(of_length(usual) - 1);
+            // Where there is no room for more boundary particles than are in reach, lists are there all the same.
+            let least = of(usual, lists::reached_at_start(&scene, &roomy.grid));
+            let fitted = Plan::new(&scene, &binding(least), &Wanted::default()).unwrap();
+            assert_eq!(bytes_of(&fitted, "neighbor_list"), Some(least));
+            let small = binding(least - 1);
             let fitted = Plan::new(&scene, &small, &Wanted::default()).unwrap();
             let told = fitted.lists_left_out.clone().expect("it says so");
             assert!(
-                told.contains(&format!("{} bytes", of_length(usual))) && told.contains("without lists"),
+                told.contains(&format!("{least} bytes")) && told.contains("without lists"),
                 "{told}"
             );
             assert!(fitted.told().any(|note| *note == told));
@@ -297,7 +312,12 @@ fn scenes_that_need_lists_are_refused_where_these_do_not_fit() {
         ),
     ] {
         let usual = lists::usual_length(&scene);
-        let small = binding(lists::buffers(&scene, usual)[0].bytes - 1);
+        let room = Room {
+            list: usual,
+            reached: lists::reached_at_start(&scene, &first_grid(&scene)),
+            ..Default::default()
+        };
+        let small = binding(lists::buffers(&scene, room)[0].bytes - 1);
         let error = Plan::new(&scene, &small, &Wanted::default()).expect_err("no room");
         let Error::Limit { what, help } = error else {
             panic!("{error}")
@@ -390,4 +410,33 @@ fn everything_that_an_adapter_limits_is_checked() {
         let error = Plan::new(&scene, &limits, &wanted).expect_err(told).to_string();
         assert!(error.contains(told) && error.contains("help: "), "{error}");
     }
+}
+
+/// WebGPU promises 8 storage buffers per stage everywhere.
+#[test]
+fn no_pass_of_a_shipped_scene_binds_more_than_8_storage_buffers() {
+    let columns = COLUMNS.iter().copied().filter(|c| c.source == Source::Measured);
+    let measured: Vec<_> = columns.collect();
+    let mut most = 0;
+    for name in library::names() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/scenes/{name}.json"));
+        let scene = load::load(&file, &[]).expect("shipped scenes are sound");
+        let wanted = Wanted {
+            statistics: true,
+            columns: measured.clone(),
+            view: Some(View::Both),
+            voxel_map: Some(64),
+            sensors: !scene.sensors.list.is_empty(),
+            ..Default::default()
+        };
+        let limits = Limits {
+            storage_buffers: 8,
+            ..Limits::PROMISED
+        };
+        match Plan::new(&scene, &limits, &wanted) {
+            Ok(plan) => most = plan.most_storage_buffers().1.max(most),
+            Err(error) => panic!("{name}: {error}"),
+        }
+    }
+    assert!(most > 4, "{most}: nothing was counted");
 }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use sliceflow::neighbors::{ADDRESSINGS, Grid, STORAGES};
+use sliceflow::neighbors::Grid;
 use sliceflow::plan::Wanted;
 use sliceflow::scene::model::Axis;
 use sliceflow::scene::{Scene, column};
@@ -19,6 +19,7 @@ fn observe(dimensions: usize, addressing: &str, storage: &str, axis: &str) -> (F
             &format!("neighbors.storage={storage}"),
             &format!("neighbors.slicing_axis={axis}"),
             "neighbors.slots=32",
+            "neighbors.skin=0",
             "time.fps=2000",
         ],
     );
@@ -39,19 +40,11 @@ fn observe(dimensions: usize, addressing: &str, storage: &str, axis: &str) -> (F
 #[test]
 fn every_particle_is_in_a_box_and_in_the_map() {
     for dimensions in [2, 3] {
-        for addressing in ADDRESSINGS.iter().map(|row| row.name) {
-            for storage in STORAGES.iter().map(|row| row.name) {
-                for axis in ["x", "y", "z"] {
-                    // Which way slices lie is nothing to how voxels keep particles.
-                    let turns = storage == STORAGES[0].name;
-                    if dimensions == 2 && axis == "z" || !turns && axis != "y" {
-                        continue;
-                    }
-                    let what = format!("{addressing}-{storage} across {axis} in {dimensions}D");
-                    let (frame, scene) = observe(dimensions, addressing, storage, axis);
-                    check(&frame, &scene, &what);
-                }
-            }
+        for ((addressing, storage), axis) in common::grids_and_axes(dimensions) {
+            let (addressing, storage) = (addressing.name, storage.name);
+            let what = format!("{addressing}-{storage} across {axis} in {dimensions}D");
+            let (frame, scene) = observe(dimensions, addressing, storage, axis);
+            check(&frame, &scene, &what);
         }
     }
 }

@@ -16,6 +16,7 @@ struct Grid {
     frame_steps: u32, // steps of a frame
     list_reach: f32, // of lists, m: the search radius and the skin
     list_move: f32, // square of the way that a particle may move while its list serves, m²
+    reached_capacity: u32, // boundary particles in reach of fluid that there is room for
     period: vec4f, // in (x, y, z) order: lengths after which space repeats, m; 0 along directions where it does not
     inverse_period: vec4f, // 1/m; 0 along those directions
     period_lower: vec4f, // lower corner of what repeats, m

@@ -13,6 +13,7 @@ struct SearchState {
     quarantined: u32, // particles that the search does not follow
     quarantined_so_far: atomic<u32>, // the same while they are counted
     longest_list: u32, // of neighbors
+    reached: u32, // boundary particles in reach of fluid
 }
 
 var<storage, read_write> search_state: SearchState;

@@ -32,9 +32,9 @@ fn count_step() {
 }
 
 fn choose_step() {
-    let acceleration = bitcast<f32>(atomicExchange(&extremes.acceleration, 0u));
-    let noted = bitcast<f32>(atomicExchange(&extremes.signal, 0u));
-    let sound = max(bitcast<f32>(atomicExchange(&extremes.sound, 0u)), step_limits.sound_speed);
+    let acceleration = bitcast<f32>(atomicExchange(&guard.extremes.acceleration, 0u));
+    let noted = bitcast<f32>(atomicExchange(&guard.extremes.signal, 0u));
+    let sound = max(bitcast<f32>(atomicExchange(&guard.extremes.sound, 0u)), step_limits.sound_speed);
     let signal = max(noted, step_limits.sound_speed + step_control.obstacle_speed);
 
     let stiffer = sound - step_limits.sound_speed;

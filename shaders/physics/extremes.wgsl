@@ -1,14 +1,6 @@
 // What a step notes of its particles for the length of the next one.
 #import common/vector
-
-// Bits of numbers that are not negative, which are ordered as the numbers are.
-struct Extremes {
-    acceleration: atomic<u32>, // the greatest, m/s²
-    signal: atomic<u32>, // the greatest sum of a particle's speed and the speed of sound in it, m/s
-    sound: atomic<u32>, // the greatest speed of sound, m/s
-}
-
-var<storage, read_write> extremes: Extremes;
+#import physics/guard
 
 const GREATEST_BITS: u32 = 0x7f7fffffu; // of a finite number
 
@@ -16,16 +8,16 @@ const GREATEST_BITS: u32 = 0x7f7fffffu; // of a finite number
 fn note_extremes(acceleration: Vector, speed: f32, sound: f32) {
     let strongest = min(bitcast<u32>(length(acceleration)), GREATEST_BITS);
     let signal = min(bitcast<u32>(speed + sound), GREATEST_BITS);
-    if strongest > atomicLoad(&extremes.acceleration) {
-        atomicMax(&extremes.acceleration, strongest);
+    if strongest > atomicLoad(&guard.extremes.acceleration) {
+        atomicMax(&guard.extremes.acceleration, strongest);
     }
-    if signal > atomicLoad(&extremes.signal) {
-        atomicMax(&extremes.signal, signal);
+    if signal > atomicLoad(&guard.extremes.signal) {
+        atomicMax(&guard.extremes.signal, signal);
     }
 #if fluid
     let stiffest = min(bitcast<u32>(sound), GREATEST_BITS);
-    if stiffest > atomicLoad(&extremes.sound) {
-        atomicMax(&extremes.sound, stiffest);
+    if stiffest > atomicLoad(&guard.extremes.sound) {
+        atomicMax(&guard.extremes.sound, stiffest);
     }
 #end
 }

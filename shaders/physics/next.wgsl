@@ -2,15 +2,14 @@
 #import physics/present
 #import fields/next_position/write
 #import fields/next_velocity/write
-#import fields/keep
 #if lists
 #import storage/lists/watch
 #end
 
-fn leave(i: u32, x: Vector, v: Vector) {
+// The velocity with what stands beside it.
+fn leave(i: u32, x: Vector, v: Packed) {
     next_position[i] = pack(x);
-    next_velocity[i] = pack(v);
-    keep_fields(i);
+    next_velocity[i] = v;
 #if lists
     watch_list(i, x);
 #end

@@ -247,6 +247,7 @@ impl fmt::Display for Report<'_> {
             ("pass", Left),
             ("when", Left),
             ("items", Right),
+            ("buffers", Right),
             ("shader", Left),
             ("why", Left),
         ]);
@@ -256,13 +257,20 @@ impl fmt::Display for Report<'_> {
                 pass.entry.clone(),
                 when(row.phase).to_owned(),
                 count(plan.most_items(pass.items, plan.capacity).into()),
+                row.demand.storage_buffers.to_string(),
                 pass.shader.clone(),
                 pass.why.clone(),
             ]);
         }
-        let mut draws = Table::new([("draw", Left), ("shader", Left), ("why", Left)]);
+        let mut draws = Table::new([
+            ("draw", Left),
+            ("buffers", Right),
+            ("shader", Left),
+            ("why", Left),
+        ]);
         for draw in &plan.draws {
-            draws.row([draw.label.clone(), draw.shader.clone(), draw.why.clone()]);
+            let buffers = draw.demand.storage_buffers.to_string();
+            draws.row([draw.label.clone(), buffers, draw.shader.clone(), draw.why.clone()]);
         }
         for table in [buffers, textures, passes, draws] {
             if !table.is_empty() {

@@ -76,7 +76,7 @@ impl Demand {
 const VARIABLE: &str = "SLICEFLOW_LIMITS";
 
 impl Limits {
-    /// What WebGPU promises everywhere; it promises 8 storage buffers, and passes bind up to 32 still.
+    /// What WebGPU promises everywhere; it promises 8 storage buffers, and passes of some scenes that do not ship bind more.
     pub const PROMISED: Self = Self {
         storage_buffers: 32,
         uniform_buffers: 12,

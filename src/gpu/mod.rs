@@ -24,7 +24,7 @@ pub use compose::Variant;
 pub use device::{AdapterChoice, Gpu};
 pub use draw::{Blend, Draw, DrawStyle};
 pub use limits::{Demand, Limits};
-pub use parts::{BufferPlan, Contents, DISPATCHES, Items, PassPlan, Repeat};
+pub use parts::{BufferPlan, Contents, DISPATCHES, Items, Over, PassPlan, Repeat};
 pub use pass::{Groups, Kernel, Pass};
 pub use reflect::Shader;
 pub use work::Work;

@@ -76,6 +76,11 @@ impl BufferPlan {
         Self::uniform(name, size_of::<T>(), why).holding(std::slice::from_ref(value))
     }
 
+    /// A uniform buffer that holds a small table from the start.
+    pub fn uniforms<T: bytemuck::NoUninit>(name: &str, values: &[T], why: impl Into<String>) -> Self {
+        Self::uniform(name, size_of_val(values), why).holding(values)
+    }
+
     /// A storage buffer that holds these elements from the start.
     pub fn table<T: bytemuck::NoUninit>(name: &str, values: &[T], why: impl Into<String>) -> Self {
         Self::storage(name, values.len() as u64, size_of::<T>() as u64, why).holding(values)
@@ -153,9 +158,24 @@ pub enum Items {
     FreeParticles,
     /// The same, when particles are searched anew.
     SearchedFreeParticles,
+    /// The same, behind a move after which lists serve.
+    KeptFreeParticles,
     /// The same, when lists serve and steps are left to do.
     MovingFreeParticles,
-    /// One per particle, as long as the loop of this number goes on.
+    /// The same, for moves from the `next_` buffers to those without.
+    ReturningFreeParticles,
+    /// One per particle that is no boundary particle, then one per boundary particle in reach that there is room for
+    /// (`shaders/storage/lists/reached.wgsl`); where the search does not know which are in reach, one per particle.
+    ReachedParticles,
+    /// The same, when particles are searched anew.
+    SearchedReachedParticles,
+    /// The same, behind a move after which lists serve.
+    KeptReachedParticles,
+    /// The same, when lists serve and steps are left to do.
+    MovingReachedParticles,
+    /// The same, for moves from the `next_` buffers to those without.
+    ReturningReachedParticles,
+    /// One per particle that is no boundary particle, as long as the loop of this number goes on.
     Loop(u32),
     /// The same, for the second pass of an iteration.
     LoopSecond(u32),
@@ -165,8 +185,19 @@ pub enum Items {
     Fixed(u32),
 }
 
-/// What the entries of the buffer `dispatch` are for, in order, each with its name in shaders. Those without boundary
-/// particles stand behind the others.
+/// Which particles a pass runs over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Over {
+    All,
+    /// All but boundary particles.
+    Free,
+    /// All but the boundary particles that no fluid can reach before the next search.
+    Reached,
+}
+
+/// What the entries of the buffer `dispatch` are for, in order, each with its name in shaders. Those over all particles
+/// stand first, then those without boundary particles, then those with boundary particles in reach
+/// (`shaders/storage/lists/decide.wgsl`).
 pub const DISPATCHES: &[(Items, &str)] = &[
     (Items::Particles, "DISPATCH_PARTICLES"),
     (Items::Voxels, "DISPATCH_VOXELS"),
@@ -180,7 +211,14 @@ pub const DISPATCHES: &[(Items, &str)] = &[
     (Items::ReturnedParticles, "DISPATCH_RETURNED"),
     (Items::FreeParticles, "DISPATCH_FREE"),
     (Items::SearchedFreeParticles, "DISPATCH_SEARCHED_FREE"),
+    (Items::KeptFreeParticles, "DISPATCH_KEPT_FREE"),
     (Items::MovingFreeParticles, "DISPATCH_MOVING_FREE"),
+    (Items::ReturningFreeParticles, "DISPATCH_RETURNING_FREE"),
+    (Items::ReachedParticles, "DISPATCH_REACHED"),
+    (Items::SearchedReachedParticles, "DISPATCH_SEARCHED_REACHED"),
+    (Items::KeptReachedParticles, "DISPATCH_KEPT_REACHED"),
+    (Items::MovingReachedParticles, "DISPATCH_MOVING_REACHED"),
+    (Items::ReturningReachedParticles, "DISPATCH_RETURNING_REACHED"),
 ];
 
 /// Entries of `loop_dispatch` that each loop has: for the first and for the second pass of an iteration.
@@ -208,6 +246,47 @@ impl Items {
             Self::LoopOnce(number) => Some(("check_dispatch", number.into())),
             Self::Fixed(_) => None,
             _ => Some(("dispatch", self.entry() as u64)),
+        }
+    }
+
+    /// Which particles they are; `None` where threads stand for something else.
+    pub fn over(self) -> Option<Over> {
+        match self {
+            Self::Particles
+            | Self::SearchedParticles
+            | Self::KeptParticles
+            | Self::MovingParticles
+            | Self::ReturningParticles
+            | Self::AwayParticles
+            | Self::ReturnedParticles => Some(Over::All),
+            Self::FreeParticles
+            | Self::SearchedFreeParticles
+            | Self::KeptFreeParticles
+            | Self::MovingFreeParticles
+            | Self::ReturningFreeParticles
+            | Self::Loop(_)
+            | Self::LoopSecond(_) => Some(Over::Free),
+            Self::ReachedParticles
+            | Self::SearchedReachedParticles
+            | Self::KeptReachedParticles
+            | Self::MovingReachedParticles
+            | Self::ReturningReachedParticles => Some(Over::Reached),
+            Self::Voxels
+            | Self::VoxelBlocks
+            | Self::Once
+            | Self::SearchedOnce
+            | Self::LoopOnce(_)
+            | Self::Fixed(_) => None,
+        }
+    }
+
+    /// The same particles in steps that leave them in the buffers without `next_`.
+    pub fn returning(self) -> Self {
+        match self {
+            Self::MovingParticles => Self::ReturningParticles,
+            Self::MovingFreeParticles => Self::ReturningFreeParticles,
+            Self::MovingReachedParticles => Self::ReturningReachedParticles,
+            other => other,
         }
     }
 

@@ -38,7 +38,9 @@ shared_struct! {
         pub list_reach: f32,
         /// Square of the way that a particle may move while its list serves, m².
         pub list_move: f32,
-        pub _pad: [u32; 2],
+        /// Boundary particles in reach of fluid that there is room for.
+        pub reached_capacity: u32,
+        pub _pad: u32,
         /// In (x, y, z) order: lengths after which space repeats, metres; 0 along directions where it does not.
         pub period: [f32; 4],
         /// 1/m; 0 along those directions.
@@ -119,6 +121,7 @@ impl Grid {
             row_capacity: room.rows,
             word_capacity: room.words,
             list_capacity: room.list,
+            reached_capacity: room.reached,
             ..self
         }
     }
@@ -129,6 +132,7 @@ impl Grid {
             rows: self.row_capacity,
             words: self.word_capacity,
             list: self.list_capacity,
+            reached: self.reached_capacity,
         }
     }
 

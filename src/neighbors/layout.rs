@@ -14,6 +14,8 @@ shared_struct! {
         pub quarantined: u32,
         pub quarantined_so_far: u32,
         pub longest_list: u32,
+        /// Boundary particles in reach of fluid.
+        pub reached: u32,
     }
 }
 
@@ -27,13 +29,12 @@ impl SearchState {
         quarantined: 0,
         quarantined_so_far: 0,
         longest_list: 0,
+        reached: 0,
     };
 }
 
 shared_struct! {
     pub struct ListState {
-        /// Not zero: a particle has moved so far that a neighbor may be missing from a list.
-        pub moved: u32,
         /// List of the last search, in full.
         pub longest: u32,
         /// Steps that searched, since the run began.

@@ -1,9 +1,15 @@
 //! Neighbor lists (Verlet 1967): each particle's neighbors within the search radius and a skin serve every step until a
 //! particle has moved by half the skin; only then are particles searched anew. The device decides.
+//!
+//! Boundary particles without fluid within the radius and the skin are out of reach: no fluid can come near them before the
+//! next search, so they have no lists, and passes leave them out (`shaders/storage/lists/reached.wgsl`).
+
+use std::collections::HashSet;
 
 use super::addressing::search_state;
+use super::grid::Voxel;
 use super::layout::ListState;
-use super::{Search, storage};
+use super::{Grid, Room, Search, storage};
 use crate::error::{Error, Result};
 use crate::gpu::{BufferPlan, Items, Limits, PassPlan, Variant};
 use crate::scene::Scene;
@@ -12,7 +18,13 @@ use crate::scene::Scene;
 const CLOCK: &str = "physics/advance_clock";
 
 /// Flags that lists may set.
-pub(super) const FLAGS: &[&str] = &["lists", "lists_every_step", "periodic", "walls_apart"];
+pub(super) const FLAGS: &[&str] = &[
+    "lists",
+    "lists_every_step",
+    "periodic",
+    "walls_apart",
+    "boundary_in_reach",
+];
 
 /// Particles whose rows of a list are interleaved: what the narrowest processors read side by side; wider ones read whole
 /// sectors of memory all the same.
@@ -33,6 +45,45 @@ fn walls_apart(scene: &Scene) -> bool {
     every_step(scene) && !scene.boundary.is_empty()
 }
 
+/// Whether passes leave out boundary particles that are out of reach. Those must stand behind the others, and lists must have
+/// been made from the fluid's side.
+pub fn knows_reach(scene: &Scene) -> bool {
+    wanted(scene)
+        && !every_step(scene)
+        && !scene.boundary.is_empty()
+        && storage::row(scene.neighbors.storage).sorts
+}
+
+/// Boundary particles that may be in reach of a scene's fluid at the start: those in voxels that hold fluid and in the voxels
+/// around these. 0 where the search does not know which are in reach.
+pub fn reached_at_start(scene: &Scene, grid: &Grid) -> u32 {
+    if !knows_reach(scene) {
+        return 0;
+    }
+    let boundary = &scene.boundary.position;
+    if scene.domain.period() != glam::Vec3::ZERO {
+        // Fluid reaches them across periodic sides too.
+        return boundary.len() as u32;
+    }
+    let reach = super::grid::voxel_reach(scene) as i32;
+    let mut near: HashSet<Voxel> = HashSet::new();
+    let fluid: HashSet<Voxel> = scene
+        .particles
+        .position
+        .iter()
+        .filter_map(|&p| grid.voxel(p))
+        .collect();
+    for [u, s, w] in fluid {
+        for du in -reach..=reach {
+            for ds in -reach..=reach {
+                near.extend((-reach..=reach).map(|dw| [u + du, s + ds, w + dw]));
+            }
+        }
+    }
+    let is_near = |&&p: &&glam::Vec3| grid.voxel(p).is_some_and(|voxel| near.contains(&voxel));
+    boundary.iter().filter(is_near).count() as u32
+}
+
 /// Numbers that a list begins with: how many neighbors it has, boundary particles for themselves where they stand apart.
 fn head(scene: &Scene) -> u32 {
     1 + u32::from(walls_apart(scene))
@@ -43,18 +94,26 @@ pub fn usual_length(scene: &Scene) -> u32 {
     scene.usual_neighbors(1.0 + scene.neighbors.skin).ceil() as u32
 }
 
-/// The lists' own buffers, with room for so many neighbors of each particle.
-pub fn buffers(scene: &Scene, length: u32) -> Vec<BufferPlan> {
+/// How many particles have lists.
+fn listed(scene: &Scene, room: Room) -> u64 {
+    let sorts = storage::row(scene.neighbors.storage).sorts;
+    if knows_reach(scene) {
+        u64::from(scene.first_boundary()) + u64::from(room.reached)
+    } else if every_step(scene) && sorts {
+        // Boundary particles, which stand behind the others, have no lists there.
+        scene.first_boundary().into()
+    } else {
+        scene.capacity.into()
+    }
+}
+
+/// The lists' own buffers, with room for so many neighbors of each particle, and of so many boundary particles.
+pub fn buffers(scene: &Scene, room: Room) -> Vec<BufferPlan> {
     let particles = u64::from(scene.capacity);
     let every_step = every_step(scene);
-    // Boundary particles, which stand behind the others, have no lists there.
-    let listed = match every_step && storage::row(scene.neighbors.storage).sorts {
-        true => u64::from(scene.first_boundary()),
-        false => particles,
-    };
     // Rows are interleaved by so many.
-    let rows = listed.next_multiple_of(LIST_LANES.into());
-    let length = u64::from(length);
+    let rows = listed(scene, room).next_multiple_of(LIST_LANES.into());
+    let length = u64::from(room.list);
     let head = u64::from(head(scene));
     let mut buffers = vec![
         BufferPlan::storage(
@@ -91,14 +150,40 @@ pub fn buffers(scene: &Scene, length: u32) -> Vec<BufferPlan> {
             "where each particle was when it was listed",
         ));
     }
+    if knows_reach(scene) {
+        let words = (scene.boundary.len() as u64).div_ceil(32);
+        buffers.extend([
+            BufferPlan::storage(
+                "reach_mark",
+                words,
+                4,
+                "bits of boundary particles in reach of fluid, while they are set",
+            ),
+            BufferPlan::storage("reach_word", words, 8, "the same bits, and those set before them"),
+            BufferPlan::storage(
+                "reached",
+                // Shaders want room for one in any case.
+                1 + u64::from(room.reached.max(1)),
+                4,
+                "boundary particles in reach of fluid: their number, then they",
+            ),
+        ]);
+    }
     buffers
 }
 
-/// The longest lists, of at least `least` and at most `most` neighbors, that an adapter binds; `None` where it binds none
-/// of them.
-pub fn longest(scene: &Scene, least: u32, most: u32, limits: &Limits) -> Option<u32> {
-    let fits = |length| list_bytes(scene, length) <= limits.largest();
-    let (mut fitting, mut beyond) = (least, u64::from(most.max(least)) + 1);
+/// The most room for lists, at least `least` and at most `most`, that an adapter binds; `None` where it does not even bind
+/// `least`. Of more particles with lists and longer lists, more particles come first.
+pub fn largest(scene: &Scene, least: Room, most: Room, limits: &Limits) -> Option<Room> {
+    let of = |reached| longest(scene, Room { reached, ..least }, most.list, limits);
+    of(most.reached.max(least.reached)).or_else(|| of(least.reached))
+}
+
+/// The same with lists of at most `most` neighbors.
+fn longest(scene: &Scene, least: Room, most: u32, limits: &Limits) -> Option<Room> {
+    let of = |list| Room { list, ..least };
+    let fits = |length| list_bytes(scene, of(length)) <= limits.largest();
+    let (mut fitting, mut beyond) = (least.list, u64::from(most.max(least.list)) + 1);
     if !fits(fitting) {
         return None;
     }
@@ -110,15 +195,12 @@ pub fn longest(scene: &Scene, least: u32, most: u32, limits: &Limits) -> Option<
             beyond = middle.into();
         }
     }
-    Some(fitting)
+    Some(of(fitting))
 }
 
-/// Bytes of the largest buffer of lists with room for so many neighbors.
-fn list_bytes(scene: &Scene, length: u32) -> u64 {
-    let largest = buffers(scene, length)
-        .into_iter()
-        .map(|buffer| buffer.bytes)
-        .max();
+/// Bytes of the largest buffer of lists.
+fn list_bytes(scene: &Scene, room: Room) -> u64 {
+    let largest = buffers(scene, room).into_iter().map(|buffer| buffer.bytes).max();
     largest.unwrap_or_default()
 }
 
@@ -147,16 +229,17 @@ fn needed_by(scene: &Scene) -> Option<(&'static str, &'static str)> {
     }
 }
 
-/// What a run says that leaves out lists of `length` neighbors, for which an adapter has no room.
+/// What a run says that leaves out lists, for which an adapter has no room.
 ///
 /// # Errors
 ///
 /// Where the scene needs lists.
-pub fn left_out(scene: &Scene, length: u32, limits: &Limits) -> Result<String> {
+pub fn left_out(scene: &Scene, room: Room, limits: &Limits) -> Result<String> {
     let why = format!(
-        "lists of {length} neighbors of each of {} particles need {} bytes; this adapter binds at most {} at once",
-        scene.capacity,
-        list_bytes(scene, length),
+        "lists of {} neighbors of each of {} particles need {} bytes; this adapter binds at most {} at once",
+        room.list,
+        listed(scene, room),
+        list_bytes(scene, room),
         limits.largest()
     );
     match needed_by(scene) {
@@ -179,12 +262,13 @@ pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
         .flag("lists", true)
         .flag("lists_every_step", every_step(scene))
         .flag("walls_apart", walls_apart(scene))
+        .flag("boundary_in_reach", knows_reach(scene))
         .constant("LIST_LANES", LIST_LANES)
         .constant("LIST_HEAD", head(scene))
         .flag("periodic", scene.domain.period() != glam::Vec3::ZERO)
         .role("candidates", "storage/lists/query");
     search_state(search);
-    search.buffers.extend(buffers(scene, search.grid.list_capacity));
+    search.buffers.extend(buffers(scene, search.grid.room()));
     search.buffers.push(
         BufferPlan::indirect(
             "search_dispatch",
@@ -196,24 +280,38 @@ pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
         .renewed(),
     );
     search.passes = when(&search.passes, Items::SearchedParticles);
-    search.passes.extend([
-        PassPlan::new(
-            "storage/lists/build",
-            "list_candidates",
-            if every_step(scene) {
-                Items::SearchedFreeParticles
-            } else {
-                Items::SearchedParticles
-            },
-            "neighbors within the search radius and the skin",
-        ),
-        PassPlan::new(
-            "storage/lists/check",
-            "check_lists",
-            Items::SearchedOnce,
-            "whether the lists had room",
-        ),
-    ]);
+    search.passes.push(PassPlan::new(
+        "storage/lists/build",
+        "list_candidates",
+        if every_step(scene) || knows_reach(scene) {
+            Items::SearchedFreeParticles
+        } else {
+            Items::SearchedParticles
+        },
+        "neighbors within the search radius and the skin",
+    ));
+    if knows_reach(scene) {
+        search.passes.extend([
+            PassPlan::new(
+                "storage/lists/rank",
+                "rank_reached",
+                Items::SearchedOnce,
+                "prefix sum over the boundary particles in reach of fluid",
+            ),
+            PassPlan::new(
+                "storage/lists/build_reached",
+                "list_reached",
+                Items::SearchedParticles,
+                "fluid around the boundary particles in reach",
+            ),
+        ]);
+    }
+    search.passes.push(PassPlan::new(
+        "storage/lists/check",
+        "check_lists",
+        Items::SearchedOnce,
+        "whether the lists had room",
+    ));
 }
 
 /// The same passes, with threads over particles only when `particles` says so.
@@ -222,7 +320,11 @@ fn when(passes: &[PassPlan], particles: Items) -> Vec<PassPlan> {
         items: match (pass.items, particles) {
             (Items::Particles, _) => particles,
             (Items::FreeParticles, Items::SearchedParticles) => Items::SearchedFreeParticles,
+            (Items::FreeParticles, Items::KeptParticles) => Items::KeptFreeParticles,
             (Items::FreeParticles, Items::MovingParticles) => Items::MovingFreeParticles,
+            (Items::ReachedParticles, Items::SearchedParticles) => Items::SearchedReachedParticles,
+            (Items::ReachedParticles, Items::KeptParticles) => Items::KeptReachedParticles,
+            (Items::ReachedParticles, Items::MovingParticles) => Items::MovingReachedParticles,
             (Items::Once | Items::Fixed(1), Items::SearchedParticles) => Items::SearchedOnce,
             (other, _) => other,
         },
@@ -238,11 +340,13 @@ fn when(passes: &[PassPlan], particles: Items) -> Vec<PassPlan> {
 /// passes flipped, back again.
 ///
 /// Where every step searches, particles are always where the search left them, and nothing has to be taken back.
+///
+/// `once` are passes behind each search, behind those that each step has there.
 pub fn phases(
     search: &Search,
     every_step: bool,
     before: &[PassPlan],
-    after: &[PassPlan],
+    [after, once]: [&[PassPlan]; 2],
 ) -> [Vec<PassPlan>; 2] {
     let copy = |items, why: &str| PassPlan::new("storage/lists/keep", "keep_particles", items, why);
     let mut searching = Vec::new();
@@ -261,6 +365,7 @@ pub fn phases(
     }
     searching.extend_from_slice(&search.passes);
     searching.extend(when(after, Items::SearchedParticles));
+    searching.extend(when(once, Items::SearchedParticles));
     searching.push(PassPlan::new(
         "storage/lists/resume",
         "resume_steps",

@@ -20,7 +20,7 @@ pub use storage::STORAGES;
 
 use glam::Vec3;
 
-use crate::gpu::{BufferPlan, DISPATCHES, PassPlan, Variant};
+use crate::gpu::{BufferPlan, DISPATCHES, Items, PassPlan, Variant};
 use crate::scene::model::Axis;
 use crate::scene::{Dimensions, Scene};
 use addressing::RoomRule;
@@ -64,7 +64,9 @@ pub struct Search {
 
 /// What a scene's first state needs, with the slicing axis that needs least where the scene leaves it open.
 pub fn first_grid(scene: &Scene) -> Grid {
-    grid_for(scene, &scene.positions())
+    let (grid, room) = least(scene, &scene.positions());
+    let reached = lists::reached_at_start(scene, &grid);
+    roomy(scene, grid, Room { reached, ..room })
 }
 
 /// The same for particles at these local positions.
@@ -103,6 +105,7 @@ pub fn grown_grid(scene: &Scene, grid: Grid, needed: Room, positions: Option<&[V
                 rows: pick(needed.rows, has.rows, more.rows),
                 words: pick(needed.words, has.words, more.words),
                 list: pick(needed.list, has.list, more.list),
+                reached: pick(needed.reached, has.reached, more.reached),
             })
         }
     }
@@ -148,14 +151,21 @@ fn measured(scene: &Scene, axis: Axis, positions: &[Vec3]) -> (Grid, Room) {
 
 /// The grid with room for what is needed and the scene's margin.
 fn roomy(scene: &Scene, grid: Grid, needed: Room) -> Grid {
+    let most = Room {
+        reached: match lists::knows_reach(scene) {
+            true => scene.boundary.len() as u32,
+            false => 0,
+        },
+        ..room::most(&grid)
+    };
+    let more = needed.with_margin(scene.neighbors.margin, most);
     match addressing::row(scene.neighbors.addressing).room {
         RoomRule::Fixed(_) => grid.with_room(Room {
-            list: needed.with_margin(scene.neighbors.margin, room::most(&grid)).list,
+            list: more.list,
+            reached: more.reached,
             ..needed
         }),
-        RoomRule::Followed(_) => {
-            grid.with_room(needed.with_margin(scene.neighbors.margin, room::most(&grid)))
-        }
+        RoomRule::Followed(_) => grid.with_room(more),
     }
 }
 
@@ -176,6 +186,17 @@ pub fn plan(scene: &Scene, grid: Grid, variant: &mut Variant) -> Search {
         .without(lists::FLAGS);
     if lists::wanted(scene) {
         lists::plan(&mut search, scene, variant);
+    }
+    if storage::row(scene.neighbors.storage).sorts {
+        search.passes.push(PassPlan::new(
+            "storage/sorted/keep",
+            "keep_fields",
+            match lists::wanted(scene) {
+                true => Items::SearchedParticles,
+                false => Items::Particles,
+            },
+            "what no step changes, for the next search",
+        ));
     }
     for flag in FLAGS {
         variant.flag(flag, search.flags.contains(flag));

@@ -20,6 +20,8 @@ pub struct Room {
     pub words: u32,
     /// Neighbors in a particle's list.
     pub list: u32,
+    /// Boundary particles in reach of fluid, where only these have lists.
+    pub reached: u32,
 }
 
 impl Room {
@@ -34,6 +36,7 @@ impl Room {
             rows: grown(self.rows, most.rows),
             words: grown(self.words, most.words),
             list: (f64::from(self.list) * margin).ceil().min(f64::from(most.list)) as u32,
+            reached: grown(self.reached, most.reached),
         }
     }
 
@@ -42,6 +45,7 @@ impl Room {
             && self.rows <= other.rows
             && self.words <= other.words
             && self.list <= other.list
+            && self.reached <= other.reached
     }
 }
 
@@ -55,6 +59,7 @@ pub fn most(grid: &Grid) -> Room {
         rows: fit(rows),
         words: fit(rows.saturating_mul(along(0).div_ceil(32))),
         list: u32::MAX,
+        reached: u32::MAX,
     }
 }
 
@@ -165,6 +170,6 @@ pub fn of_bitmap(voxels: &mut dyn Iterator<Item = Voxel>) -> Room {
         voxels: fit(occupied.len() as u64),
         rows: fit(rows),
         words: fit(words),
-        list: 0,
+        ..Default::default()
     }
 }

@@ -4,7 +4,7 @@
 //! Sorting once more what the last search left does no harm, so the passes in between run a fixed number of threads.
 
 use super::addressing::{self, RoomRule};
-use super::storage::{clear_voxels, entries, scan, voxel_starts};
+use super::storage::{clear_voxels, entries, follow, scan, voxel_starts};
 use super::{Search, room};
 use crate::gpu::compose::{SCAN_ITEMS, SCAN_THREADS};
 use crate::gpu::{BufferPlan, Items, PassPlan};
@@ -46,7 +46,7 @@ fn note_order(search: &mut Search, neighbors: &Neighbors, name: &str) {
 }
 
 /// The pass that puts particles into sorted order, and those behind it.
-fn rearrange(search: &mut Search, build: &str, index: Option<u32>) {
+fn rearrange(search: &mut Search, build: &str, index: Option<u32>, particles: u32) {
     clear_voxels(search);
     search.passes.push(PassPlan {
         index,
@@ -54,10 +54,11 @@ fn rearrange(search: &mut Search, build: &str, index: Option<u32>) {
             build,
             "rearrange_particles",
             Items::Particles,
-            "state into voxel order; begin and end of each voxel",
+            "positions and velocities into voxel order; begin and end of each voxel",
         )
     });
     voxel_starts(search);
+    follow(search, particles.into());
 }
 
 pub fn radix(search: &mut Search, particles: u32, neighbors: &Neighbors) {
@@ -97,7 +98,7 @@ pub fn radix(search: &mut Search, particles: u32, neighbors: &Neighbors) {
             .passes
             .push(numbered("scatter_pairs", format!("{of}: into its order, stable")));
     }
-    rearrange(search, build, Some(digits));
+    rearrange(search, build, Some(digits), particles);
     note_order(search, neighbors, "radix");
 }
 
@@ -159,6 +160,6 @@ pub fn bitonic(search: &mut Search, particles: u32, neighbors: &Neighbors) {
         ));
         sorted *= 2;
     }
-    rearrange(search, build, None);
+    rearrange(search, build, None, particles);
     note_order(search, neighbors, "bitonic");
 }

@@ -107,6 +107,22 @@ pub(super) fn voxel_starts(search: &mut Search) {
     scan(search, "storage/sorted/scan_voxels", items, how, "voxels");
 }
 
+/// Adds the pass in which the rest of what particles have follows them to where they were sorted.
+pub(super) fn follow(search: &mut Search, particles: u64) {
+    search.buffers.push(BufferPlan::storage(
+        "origin",
+        particles,
+        4,
+        "where each particle was before it was sorted",
+    ));
+    search.passes.push(PassPlan::new(
+        "storage/sorted/follow",
+        "follow_particles",
+        Items::Particles,
+        "the rest of what particles have, into voxel order",
+    ));
+}
+
 fn counting(search: &mut Search, particles: u32, neighbors: &Neighbors) {
     let particles = u64::from(particles);
     let build = "storage/counting/build";
@@ -131,8 +147,9 @@ fn counting(search: &mut Search, particles: u32, neighbors: &Neighbors) {
     if !neighbors.deterministic {
         search.passes.push(pass(
             "reorder_particles",
-            "state into voxel order, as it was counted",
+            "positions and velocities into voxel order, as it was counted",
         ));
+        follow(search, particles);
         return;
     }
     search.buffers.push(BufferPlan::storage(
@@ -145,9 +162,10 @@ fn counting(search: &mut Search, particles: u32, neighbors: &Neighbors) {
         pass("scatter_particles", "indices into voxel order"),
         pass(
             "reorder_particles",
-            "state into voxel order, the same in every run",
+            "positions and velocities into voxel order, the same in every run",
         ),
     ]);
+    follow(search, particles);
 }
 
 fn pool(search: &mut Search, _: u32, neighbors: &Neighbors) {
@@ -167,6 +185,12 @@ fn pool(search: &mut Search, _: u32, neighbors: &Neighbors) {
     let build = "storage/pool/build";
     search.passes.extend([
         PassPlan::new(build, "clear_voxels", Items::VoxelBlocks, "empties the pool"),
+        PassPlan::new(
+            "storage/pool/take",
+            "take_particles",
+            Items::Particles,
+            "particles keep their places",
+        ),
         PassPlan::new(
             build,
             "insert_particles",

@@ -98,7 +98,12 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         buffers.push(BufferPlan::constant("clamp_walls", &walls_that_clamp(scene), why));
     }
     if !obstacles.colliders.is_empty() {
-        buffers.push(BufferPlan::table("colliders", &obstacles.colliders, "obstacles"));
+        variant.constant("COLLIDERS", obstacles.colliders.len() as u32);
+        buffers.push(BufferPlan::uniforms(
+            "colliders",
+            &obstacles.colliders,
+            "obstacles",
+        ));
     }
     if !obstacles.field.is_empty() {
         let why = "signed distances around mesh obstacles";
@@ -139,14 +144,22 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         }
     }
 
-    if request.measures() {
+    if statistics || request.measures_columns() {
         buffers.push(BufferPlan::constant(
             "measure",
             &measure(scene, given, grid),
             "what measures are divided by",
         ));
-        let why = "contacts, energies and measured columns of each grain, once a frame";
+    }
+    if statistics || request.has_column("contacts") || request.has_column("pressure") {
+        let why = "contacts, energies and columns that contacts give, once a frame";
         solver.measure.push(pass("measure", "measure_grains", why));
+    }
+    if request.has_column("density") {
+        let why = "density around each grain, once a frame";
+        solver
+            .measure
+            .push(pass("measure_density", "measure_density", why));
     }
     solver.notes.clone_from(&obstacles.notes);
     solver.obstacles = Obstacles {

@@ -9,7 +9,9 @@
 
 use super::collider::Obstacles;
 use super::dem::has_wall;
-use super::fluid::{self, FLAG, boundary, coefficients, given, kernel_file, measure, rim_of};
+use super::fluid::{
+    self, FLAG, body_velocity, boundary, coefficients, given, kernel_file, measure, measures, rim_of,
+};
 use super::kernels;
 use super::layout::{Convergence, Dfsph, Fluid, PACKED_BYTES};
 use super::model::{Model, Request, Solver, Written};
@@ -141,13 +143,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             .push(BufferPlan::table("boundary", &boundary(scene), why));
     }
     if moving {
-        let count = scene.colliders.len() as u64;
-        solver.buffers.push(BufferPlan::storage(
-            "body_velocity",
-            count,
-            16,
-            "how obstacles move",
-        ));
+        solver.buffers.push(body_velocity(scene, variant));
     }
 
     let pass = |file: &str, entry, items, why: &str| {
@@ -251,14 +247,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             .buffers
             .push(BufferPlan::constant("measure", &measure(scene), why));
     }
-    if request.measures() {
-        solver.measure.push(PassPlan::new(
-            "physics/fluid/measure",
-            "measure_fluid",
-            Items::Particles,
-            "energies, densities and measured columns, once a frame",
-        ));
-    }
+    solver.measure = measures(request);
     solver
 }
 

@@ -9,9 +9,10 @@ use super::collider::{Obstacles, velocity_between};
 use super::dem::{bounds, has_wall};
 use super::formulas::{self, DENSITY, FORCES, Terms};
 use super::kernels;
-use super::layout::{Fluid, Material, Measure, Planes, Rim, Sums};
+use super::layout::{Fluid, Material, Measure, PACKED_BYTES, Packed, Planes, Rim, Sums};
 use super::model::{Fault, FromState, Model, OwnFigures, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
+use crate::neighbors::lists;
 use crate::scene::boundary::NO_BODY;
 use crate::scene::model::{
     DensityFrom, FluidSolver, Integrator, Kernel, NegativePressure, Slip, ViscosityForm, Wall,
@@ -24,6 +25,9 @@ pub const FLAG: &str = "fluid";
 const LONGEST_SHIFT: f64 = 0.05;
 /// The shift of δ⁺-SPH in units of h × expected speed (Sun 2017, with its h half of the support).
 const USUAL_SHIFT: f64 = 4.0;
+
+/// Bytes of a `PairState` (`shaders/physics/fluid/pair_state.wgsl`).
+const PAIR_STATE_BYTES: u64 = 2 * PACKED_BYTES;
 
 /// The row of weakly compressible fluids.
 pub(super) const MODEL: Model = Model {
@@ -165,6 +169,9 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     let terms = terms(scene);
     let walls = !scene.boundary.is_empty();
     let moving = walls && scene.colliders.iter().any(|collider| !collider.path.is_empty());
+    let knows_reach = lists::knows_reach(scene);
+    // Periodic sides take boundary particles beyond them back with their first move.
+    let rests = knows_reach && !moving && scene.domain.period() == Vec3::ZERO;
     let planes = has_wall(scene, Wall::Planes);
     let rim = has_wall(scene, Wall::Particles) && has_wall(scene, Wall::Open);
     let several = scene.has_field("material");
@@ -175,6 +182,11 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         .constant("GAMMA", fluid.gamma)
         .flag("boundary_particles", walls)
         .flag("moving_boundaries", moving)
+        .flag("resting_boundary", rests)
+        .flag(
+            "velocity_verlet",
+            scene.time.integrator == Integrator::VelocityVerlet,
+        )
         .flag("continuity", terms.continuity)
         .flag("several_materials", several)
         .flag("viscous_velocities", scene.has_field("viscous_velocity"))
@@ -203,6 +215,13 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         Fluid::LAYOUT.size,
         "coefficients of the fluid",
     ));
+    let why = "position, density, velocity and pressure of each particle, as forces load them";
+    buffers.push(BufferPlan::storage(
+        "pair_state",
+        scene.capacity.into(),
+        PAIR_STATE_BYTES,
+        why,
+    ));
     if planes {
         let why = "sides of the domain beyond which the fluid goes on";
         buffers.push(BufferPlan::constant("planes", &planes_of(scene, fluid), why));
@@ -212,74 +231,88 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         buffers.push(BufferPlan::constant("rim", &rim_of(scene, fluid), why));
     }
     if several {
-        let count = fluid.materials.len() as u64;
-        buffers.push(BufferPlan::storage(
-            "materials",
-            count,
-            Material::LAYOUT.size as u64,
-            "the fluids",
-        ));
+        variant.constant("MATERIALS", fluid.materials.len() as u32);
+        let bytes = fluid.materials.len() * Material::LAYOUT.size;
+        buffers.push(BufferPlan::uniform("materials", bytes, "the fluids"));
     }
     if walls {
         let why = "boundary particles: velocity of the surface, and whose they are";
         buffers.push(BufferPlan::table("boundary", &boundary(scene), why));
     }
     if moving {
-        let count = scene.colliders.len() as u64;
-        buffers.push(BufferPlan::storage(
-            "body_velocity",
-            count,
-            16,
-            "how obstacles move",
-        ));
+        buffers.push(body_velocity(scene, variant));
     }
 
-    let pass = |file: &str, entry, why: &str| {
-        PassPlan::new(&format!("physics/fluid/{file}"), entry, Items::Particles, why)
+    let pass = |file: &str, entry, items, why: &str| {
+        PassPlan::new(&format!("physics/fluid/{file}"), entry, items, why)
     };
+    let (all, free, reached) = (Items::Particles, Items::FreeParticles, Items::ReachedParticles);
     let euler = scene.time.integrator == Integrator::SymplecticEuler;
-    solver.before_search.extend([
-        if euler {
-            let why = "forces and symplectic Euler (Rojas 2013, Eq. 7)";
-            pass("symplectic_euler", "move_fluid", why)
-        } else {
-            let why = "positions move, velocities are predicted (velocity Verlet)";
-            pass("drift", "drift_fluid", why)
-        },
-        PassPlan::new(
-            "physics/advance_clock",
-            "advance_clock",
-            Items::Once,
-            "counts the step",
-        ),
-    ]);
+    solver.before_search.push(if euler {
+        let why = "forces and symplectic Euler (Rojas 2013, Eq. 7)";
+        pass("symplectic_euler", "move_fluid", free, why)
+    } else {
+        let why = "positions move, velocities are predicted (velocity Verlet)";
+        pass("drift", "drift_fluid", free, why)
+    });
+    if walls {
+        let items = if rests { reached } else { all };
+        let why = "boundary particles move with their bodies, and keep what they have";
+        solver
+            .before_search
+            .push(pass("move_boundary", "move_boundary", items, why));
+    }
+    solver.before_search.push(PassPlan::new(
+        "physics/advance_clock",
+        "advance_clock",
+        Items::Once,
+        "counts the step",
+    ));
     let why = match fluid.density_from {
         DensityFrom::Summation => "density by summation (Rojas 2013, Eq. 1), and pressure",
         DensityFrom::Continuity => "density by continuity, and pressure",
     };
-    solver.after_search.push(pass("density", "find_density", why));
+    solver
+        .after_search
+        .push(pass("density", "find_density", free, why));
     if walls {
         let why = "boundary particles take on the fluid's pressure and velocity (Adami 2012)";
         solver
             .after_search
-            .push(pass("boundary_state", "extend_to_boundary", why));
+            .push(pass("boundary_state", "extend_to_boundary", reached, why));
+    }
+    if knows_reach {
+        let why = "the state of boundary particles out of reach, which have no fluid beside them";
+        solver
+            .once_searched
+            .push(pass("unreached", "extend_to_unreached", all, why));
+    }
+    if rests {
+        let why = "particles into the `next_` buffers too: steps leave out boundary particles out of reach";
+        solver.once_searched.push(PassPlan {
+            flipped: true,
+            ..PassPlan::new("storage/lists/keep", "keep_particles", all, why)
+        });
     }
     if tension {
         let why = "where the surface is, for its tension (Morris 2000)";
         solver
             .after_search
-            .push(pass("surface_normal", "find_surface", why));
+            .push(pass("surface_normal", "find_surface", free, why));
     }
     if terms.stress {
         let why = "velocity gradient and viscous stress (Rojas 2013, Eq. 4)";
-        solver.after_search.push(pass("stress", "find_stress", why));
+        solver.after_search.push(pass("stress", "find_stress", free, why));
     }
     if !euler {
         let why = "forces at the new positions";
         solver
             .after_search
-            .push(pass("velocity_verlet", "sum_fluid_forces", why));
-        solver.after_search.push(super::kick());
+            .push(pass("velocity_verlet", "sum_fluid_forces", free, why));
+        solver.after_search.push(PassPlan {
+            items: free,
+            ..super::kick()
+        });
     }
     if statistics {
         buffers.push(BufferPlan::constant(
@@ -288,11 +321,24 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             "where energies are zero",
         ));
     }
-    if request.measures() {
-        let why = "energies, densities and measured columns, once a frame";
-        solver.measure.push(pass("measure", "measure_fluid", why));
-    }
+    solver.measure = measures(request);
     solver
+}
+
+/// What is measured once a frame: figures for statistics, and columns, each in a pass of its own, so that neither binds too
+/// many buffers.
+pub(super) fn measures(request: &Request) -> Vec<PassPlan> {
+    let pass = |file: &str, entry, why: &str| {
+        PassPlan::new(&format!("physics/fluid/{file}"), entry, Items::Particles, why)
+    };
+    let figures = pass("measure", "measure_fluid", "energies and densities, once a frame");
+    let columns = pass("columns", "measure_columns", "measured columns, once a frame");
+    let wanted = [
+        (request.statistics, figures),
+        (request.measures_columns(), columns),
+    ];
+    let wanted = wanted.into_iter().filter(|(is_wanted, _)| *is_wanted);
+    wanted.map(|(_, pass)| pass).collect()
 }
 
 /// The fluid's numbers for the shaders.
@@ -396,6 +442,17 @@ pub(super) fn rim_of(scene: &Scene, fluid: &scene::fluid::Fluid) -> Rim {
         open_lower,
         open_upper,
     }
+}
+
+/// How fast each obstacle moves its boundary particles.
+pub(super) fn body_velocity(scene: &Scene, variant: &mut Variant) -> BufferPlan {
+    let bodies = scene.colliders.len();
+    variant.constant("BODIES", bodies as u32);
+    BufferPlan::uniform(
+        "body_velocity",
+        bodies * size_of::<Packed>(),
+        "how obstacles move",
+    )
 }
 
 /// Surface velocity of each boundary particle, and the number of its body.

@@ -108,6 +108,10 @@ shared_struct! {
         /// [`Guard::NOT_FINITE`], [`Guard::LOST`] or [`Guard::RAN_AWAY`].
         pub kind: u32,
         pub count: u32,
+        /// Of the step.
+        pub extremes: Extremes,
+        /// Not zero: a particle has moved so far that a neighbor may be missing from a list.
+        pub far: u32,
     }
 }
 

@@ -58,13 +58,15 @@ pub struct Request<'a> {
 }
 
 impl Request<'_> {
-    /// Whether anything is measured once a frame.
-    pub fn measures(&self) -> bool {
-        self.statistics
-            || self
-                .columns
-                .iter()
-                .any(|column| column.source == Source::Measured)
+    /// Whether columns are measured once a frame.
+    pub fn measures_columns(&self) -> bool {
+        let mut columns = self.columns.iter();
+        columns.any(|column| column.source == Source::Measured)
+    }
+
+    /// Whether somebody asked for this column.
+    pub fn has_column(&self, name: &str) -> bool {
+        self.columns.iter().any(|column| column.name == name)
     }
 }
 
@@ -76,6 +78,8 @@ pub struct Solver {
     pub before_search: Vec<PassPlan>,
     /// On the particles as the search left them.
     pub after_search: Vec<PassPlan>,
+    /// Behind those, in steps that search. Where no step does without a search, none of them is needed.
+    pub once_searched: Vec<PassPlan>,
     /// Once a frame, when somebody asks for what it measures.
     pub measure: Vec<PassPlan>,
     pub obstacles: Obstacles,

@@ -1,6 +1,6 @@
 //! Steps whose length the device chooses: what limits them, and how far a segment has come.
 
-use super::layout::{Extremes, StepControl, StepControlLimits};
+use super::layout::{StepControl, StepControlLimits};
 use crate::gpu::{BufferPlan, Variant};
 use crate::scene::{Scene, StepLimits};
 
@@ -30,12 +30,6 @@ pub fn plan(scene: &Scene, variant: &mut Variant) -> Vec<BufferPlan> {
             "time, and lengths of steps",
         )
         .reported(),
-        BufferPlan::storage(
-            "extremes",
-            1,
-            Extremes::LAYOUT.size as u64,
-            "the fastest particle and the greatest acceleration of a step",
-        ),
         BufferPlan::constant(
             "step_limits",
             &device_limits(limits),

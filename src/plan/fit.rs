@@ -126,7 +126,10 @@ impl Plan {
                     "uniform buffer `{}` ({}) needs {} bytes; this adapter binds at most {} at once",
                     buffer.name, buffer.why, buffer.bytes, limits.uniform
                 ),
-                help: format!("choose {ANOTHER}"),
+                help: match TABLES.iter().find(|(name, _)| *name == buffer.name) {
+                    Some((_, what)) => format!("have fewer {what}, or choose {ANOTHER}"),
+                    None => format!("choose {ANOTHER}"),
+                },
             }),
         }
     }
@@ -190,6 +193,13 @@ const VOXEL_BUFFERS: &[&str] = &[
     "row_record",
     "voxel_mark",
     "voxel_word",
+];
+
+/// Uniform buffers that grow with what a scene has.
+const TABLES: &[(&str, &str)] = &[
+    ("colliders", "obstacles"),
+    ("body_velocity", "obstacles"),
+    ("materials", "materials"),
 ];
 
 /// Buffers that grow with the domain's sides.

@@ -13,8 +13,8 @@ use serde::Serialize;
 use crate::error::{Error, Result};
 use crate::gpu::compose::{GROUP_SIZE, SCAN_ITEMS, SCAN_THREADS};
 use crate::gpu::pass::{INDEX_STRIDE, fold};
-use crate::gpu::{BufferPlan, DISPATCHES, Demand, Items, Limits, PassPlan, Variant};
-use crate::neighbors::{self, Grid, lists};
+use crate::gpu::{BufferPlan, DISPATCHES, Demand, Items, Limits, Over, PassPlan, Variant};
+use crate::neighbors::{self, Grid, Room, lists};
 use crate::physics::collider::Obstacles;
 use crate::physics::layout::{Clock, Guard, Occupancy, Parameters, Sums};
 use crate::physics::{self, Model, Request, dem, fields, sensors, step_control};
@@ -157,11 +157,15 @@ impl Plan {
     pub fn new(scene: &Scene, limits: &Limits, wanted: &Wanted) -> Result<Self> {
         let mut grid = neighbors::first_grid(scene);
         if lists::wanted(scene) {
-            let usual = lists::usual_length(scene);
-            match lists::longest(scene, usual, grid.list_capacity.max(usual), limits) {
-                Some(length) => grid.list_capacity = length,
+            let least = Room {
+                list: lists::usual_length(scene),
+                reached: lists::reached_at_start(scene, &grid),
+                ..grid.room()
+            };
+            match lists::largest(scene, least, grid.room(), limits) {
+                Some(room) => grid = grid.with_room(room),
                 None => {
-                    let why = lists::left_out(scene, usual, limits)?;
+                    let why = lists::left_out(scene, least, limits)?;
                     let scene = lists::without(scene);
                     return Self::without_lists(&scene, limits, wanted, neighbors::first_grid(&scene), why);
                 }
@@ -243,7 +247,7 @@ impl Plan {
                 &search,
                 lists::every_step(scene),
                 &solver.before_search,
-                &solver.after_search,
+                [&solver.after_search, &solver.once_searched],
             )
         } else {
             let start = [&search.passes[..], &solver.after_search].concat();
@@ -383,22 +387,28 @@ impl Plan {
     /// Most items that a pass has with `particles` particles.
     pub fn most_items(&self, items: Items, particles: u32) -> u32 {
         match items {
-            Items::Particles
-            | Items::SearchedParticles
-            | Items::KeptParticles
-            | Items::MovingParticles
-            | Items::ReturningParticles
-            | Items::AwayParticles
-            | Items::ReturnedParticles
-            | Items::FreeParticles
-            | Items::SearchedFreeParticles
-            | Items::MovingFreeParticles
-            | Items::Loop(_)
-            | Items::LoopSecond(_) => particles,
             Items::Voxels => self.grid.capacity,
             Items::VoxelBlocks => self.scan_blocks(self.grid.capacity),
             Items::Once | Items::SearchedOnce | Items::LoopOnce(_) => 1,
             Items::Fixed(count) => count,
+            _ => self.threads(
+                items,
+                particles,
+                particles.saturating_sub(self.boundary_particles),
+            ),
+        }
+    }
+
+    /// Threads of a pass over particles, `free` of which are no boundary particles; 0 where it is over something else.
+    fn threads(&self, items: Items, particles: u32, free: u32) -> u32 {
+        let is_set = |flag| self.variant.flags.contains(flag);
+        match items.over() {
+            Some(Over::Free) if is_set("separated") => free,
+            Some(Over::Reached) if is_set("boundary_in_reach") => {
+                particles.min(free + self.grid.reached_capacity)
+            }
+            Some(_) => particles,
+            None => 0,
         }
     }
 
@@ -408,14 +418,13 @@ impl Plan {
     /// Rows of x, y, z, and the groups that fit in one dimension.
     pub fn dispatch(&self, particles: u32, free: u32, limits: &Limits) -> Vec<[u32; 4]> {
         let voxels = self.grid.capacity;
-        let free = if self.variant.flags.contains("separated") {
-            free
-        } else {
-            particles
-        };
         let groups = |items| match items {
-            Items::Particles | Items::SearchedParticles => particles.div_ceil(GROUP_SIZE),
-            Items::FreeParticles | Items::SearchedFreeParticles => free.div_ceil(GROUP_SIZE),
+            Items::Particles
+            | Items::SearchedParticles
+            | Items::FreeParticles
+            | Items::SearchedFreeParticles
+            | Items::ReachedParticles
+            | Items::SearchedReachedParticles => self.threads(items, particles, free).div_ceil(GROUP_SIZE),
             Items::Voxels => voxels.div_ceil(GROUP_SIZE),
             Items::VoxelBlocks => self.scan_blocks(voxels),
             Items::Once => 1,
@@ -508,7 +517,12 @@ fn state_buffers(scene: &Scene) -> Vec<BufferPlan> {
             "steps done, for the guard and moving obstacles",
         )
         .reported(),
-        BufferPlan::table("guard", &[guard], "the first particle that went wrong, if any").reported(),
+        BufferPlan::table(
+            "guard",
+            &[guard],
+            "what moves note of particles: the first one that went wrong, the fastest one",
+        )
+        .reported(),
     ]
 }
 

@@ -25,6 +25,9 @@ pub struct Field {
     pub has: fn(&Scene) -> bool,
     /// Bytes for particles that come; zeros where there is no such function.
     pub start: Option<fn(&Newcomers) -> Vec<u8>>,
+    /// The vector whose spare number it is: then it has no buffer of its own and goes where the vector goes. One float per
+    /// vector, which files and colors do not know.
+    pub beside: Option<&'static str>,
     /// A field, and which of its numbers, that holds this one's value at the end of a step.
     pub ends_in: Option<(&'static str, usize)>,
 }
@@ -107,6 +110,7 @@ const ROW: Field = Field {
     saved: false,
     has: |_| true,
     start: None,
+    beside: None,
     ends_in: None,
 };
 
@@ -200,6 +204,7 @@ pub const FIELDS: &[Field] = &[
         travels: Travels::Stepped,
         has: |scene| compressible(scene).any(|fluid| fluid.density_from == DensityFrom::Continuity),
         start: Some(|new| bytemuck::cast_slice(&new.free.density_deviation).to_vec()),
+        beside: Some("velocity"),
         ends_in: Some(("fluid_state", 0)),
         ..ROW
     },
@@ -264,6 +269,11 @@ impl Scene {
     pub fn fields(&self) -> impl Iterator<Item = &Field> {
         let own = FIELDS.iter().chain(&self.more_fields);
         own.filter(|field| field.column != Some(Source::Measured) && (field.has)(self))
+    }
+
+    /// The field that is the spare number of this vector.
+    pub fn beside(&self, vector: &Field) -> Option<&Field> {
+        self.fields().find(|field| field.beside == Some(vector.name))
     }
 
     /// What the values of a field are, which may be one that is measured.

@@ -7,6 +7,7 @@ use crate::error::{Error, Result};
 use crate::gpu::buffers::Usage;
 use crate::gpu::readback::{self, Ring};
 use crate::gpu::{Buffers, Pass, Shader};
+use crate::neighbors::{FROM_VOXELS, lists};
 
 /// Neighbors by id, compressed: those of particle i are `ids[start[i]..start[i + 1]]`, in ascending order.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -49,7 +50,12 @@ pub struct PairQuery {
 impl Simulation {
     /// Prepares the passes. None of them runs for the first time when it is timed: each has run on one workgroup.
     pub fn pair_query(&mut self) -> Result<PairQuery> {
-        let shader = Shader::load("storage/list_neighbors", &self.plan.variant)?;
+        let mut variant = self.plan.variant.clone();
+        if lists::knows_reach(&self.scene) {
+            // Boundary particles out of reach have no lists.
+            variant.role("candidates", FROM_VOXELS);
+        }
+        let shader = Shader::load("storage/list_neighbors", &variant)?;
         let (gpu, buffers): (_, &mut Buffers) = (&self.gpu, &mut self.buffers);
         let slots = 4 * u64::from(self.scene.capacity);
         let part = LARGEST_PART.min(gpu.limits.binding).min(gpu.limits.buffer) / 4 * 4;

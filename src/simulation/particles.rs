@@ -3,11 +3,12 @@
 use glam::Vec3;
 
 use super::Simulation;
+use super::state::put_beside;
 use crate::error::Result;
 use crate::gpu::readback;
 use crate::physics::layout::Packed;
 use crate::scene::Particles;
-use crate::scene::field::{Newcomers, Travels};
+use crate::scene::field::{Field, Newcomers, Travels};
 
 impl Simulation {
     /// Particles besides boundary particles.
@@ -46,24 +47,36 @@ impl Simulation {
             ids: &ids,
         };
         let mut encoder = self.encoder("add particles");
-        for field in self.scene.fields().filter(|field| field.travels != Travels::No) {
+        let travels = |field: &&Field| field.travels != Travels::No && field.beside.is_none();
+        for field in self.scene.fields().filter(travels) {
             let (gpu, next) = (&self.gpu, field.before_search());
             let each = field.kind.bytes(self.scene.dimensions) as usize;
             let mut values = field.start.map_or_else(Vec::new, |start| start(&newcomers));
             values.resize(each * all, 0);
+            let beside = self.scene.beside(field);
+            if let Some(start) = beside.and_then(|beside| beside.start) {
+                put_beside(&mut values, &start(&newcomers));
+            }
             self.buffers.write(gpu, &next, each * first, &values)?;
             if first == 0 {
                 continue;
             }
             // The others have by now what their last step left.
-            match field.ends_in {
-                Some((other, place)) => {
-                    let bytes =
-                        readback::read::<u8>(gpu, self.buffers.get(other, "(host)")?, self.bytes_of(other))?;
-                    let numbers = self.number_of(other, place, &bytes);
+            let read = |name| {
+                let buffer = self.buffers.get(name, "(host)")?;
+                readback::read::<u8>(gpu, buffer, self.bytes_of(name))
+            };
+            match (field.ends_in, beside.and_then(|beside| beside.ends_in)) {
+                (Some((other, place)), _) => {
+                    let numbers = self.number_of(other, place, &read(other)?);
                     self.buffers.write(gpu, &next, 0, &numbers)?;
                 }
-                None => {
+                (None, Some((other, place))) => {
+                    let mut vectors = read(field.name)?;
+                    put_beside(&mut vectors, &self.number_of(other, place, &read(other)?));
+                    self.buffers.write(gpu, &next, 0, &vectors)?;
+                }
+                (None, None) => {
                     let from = self.buffers.get(field.name, "(host)")?;
                     let to = self.buffers.get(&next, "(host)")?;
                     encoder.copy_buffer_to_buffer(from, 0, to, 0, (each * first) as u64);

@@ -77,9 +77,10 @@ impl Passes {
                     None if planned.flipped != back => kernel.flipped_pass(gpu, buffers)?,
                     None => kernel.pass(gpu, buffers)?,
                 };
-                let items = match planned.items {
-                    Items::MovingParticles if back => Items::ReturningParticles,
-                    items => items,
+                let items = if back {
+                    planned.items.returning()
+                } else {
+                    planned.items
                 };
                 Ok(Step {
                     pass,

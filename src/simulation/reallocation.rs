@@ -28,6 +28,7 @@ impl Simulation {
                         rows: state.rows,
                         words: state.words,
                         list: state.longest_list,
+                        reached: state.reached,
                     })?;
                     // The particles have moved already; what halted is the search behind that.
                     self.search()?;
@@ -86,10 +87,21 @@ impl Simulation {
         };
         let has = self.plan.grid.room();
         let mut grid = neighbors::grown_grid(&self.scene, self.plan.grid, needed, positions.as_deref());
+        let exact = self.plan.grid.with_room(Room {
+            voxels: needed.voxels.max(has.voxels),
+            rows: needed.rows.max(has.rows),
+            words: needed.words.max(has.words),
+            list: needed.list.max(has.list),
+            reached: needed.reached.max(has.reached),
+        });
         if lists::wanted(&self.scene) {
-            let least = needed.list.max(has.list);
-            match lists::longest(&self.scene, least, grid.list_capacity, &limits) {
-                Some(length) => grid.list_capacity = length,
+            let least = Room {
+                list: exact.list_capacity,
+                reached: exact.reached_capacity,
+                ..grid.room()
+            };
+            match lists::largest(&self.scene, least, grid.room(), &limits) {
+                Some(room) => grid = grid.with_room(room),
                 None => {
                     let why = self.after_steps(lists::left_out(&self.scene, least, &limits))?;
                     let done = self.leave_lists_out(why);
@@ -98,15 +110,7 @@ impl Simulation {
             }
         }
         let plan = |grid| self.plan.with_grid(&self.scene, &limits, grid);
-        let exact = || {
-            plan(self.plan.grid.with_room(Room {
-                voxels: needed.voxels.max(has.voxels),
-                rows: needed.rows.max(has.rows),
-                words: needed.words.max(has.words),
-                list: needed.list.max(has.list),
-            }))
-        };
-        let plan = self.after_steps(plan(grid).or_else(|_| exact()))?;
+        let plan = self.after_steps(plan(grid).or_else(|_| plan(exact)))?;
         self.reallocations += 1;
         self.rebuild(plan)
     }
@@ -144,6 +148,7 @@ impl Simulation {
             rows: state.rows.max(self.plan.grid.row_capacity.min(1)),
             words: state.words,
             list: self.plan.grid.list_capacity,
+            reached: self.plan.grid.reached_capacity,
         });
         let plan = self.plan.with_grid(&self.scene, &self.gpu.limits, grid)?;
         self.rebuild(plan)

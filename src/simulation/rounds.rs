@@ -125,6 +125,7 @@ impl Simulation {
         for (moving, all) in [
             (Items::MovingParticles, Items::Particles),
             (Items::MovingFreeParticles, Items::FreeParticles),
+            (Items::MovingReachedParticles, Items::ReachedParticles),
         ] {
             buffers.write(gpu, "dispatch", moving.entry(), &[dispatch[all.entry()]])?;
         }

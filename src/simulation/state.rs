@@ -129,6 +129,13 @@ fn pack(vectors: &[Vec3]) -> Vec<u8> {
     bytemuck::cast_slice(&stored).to_vec()
 }
 
+/// Puts numbers beside stored vectors.
+pub(super) fn put_beside(vectors: &mut [u8], numbers: &[u8]) {
+    for (vector, number) in vectors.chunks_exact_mut(16).zip(numbers.chunks_exact(4)) {
+        vector[12..].copy_from_slice(number);
+    }
+}
+
 impl Simulation {
     /// The frame that [`Simulation::next_frame`] makes next.
     pub fn next_index(&self) -> u32 {
@@ -216,12 +223,18 @@ impl Simulation {
         }
         // The search puts every particle where it stood, since it keeps the order inside a voxel.
         for field in self.scene.fields() {
-            let stored = match field.ends_in {
-                Some((other, place)) => state
+            let mut stored = state.buffer(field.name).map(<[u8]>::to_vec);
+            if let Some((other, place)) = field.ends_in {
+                stored = state
                     .buffer(other)
-                    .map(|bytes| self.number_of(other, place, bytes)),
-                None => state.buffer(field.name).map(<[u8]>::to_vec),
-            };
+                    .map(|bytes| self.number_of(other, place, bytes));
+            }
+            let ends = self.scene.beside(field).and_then(|beside| beside.ends_in);
+            if let (Some(vectors), Some((other, place))) = (&mut stored, ends)
+                && let Some(bytes) = state.buffer(other)
+            {
+                put_beside(vectors, &self.number_of(other, place, bytes));
+            }
             self.put(&field.before_search(), stored.as_deref())?;
         }
         if let (true, Some(why)) = (lists::can_be_left_out(&self.scene), &state.lists_left_out) {

@@ -6,6 +6,9 @@ use glam::Vec3;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use sliceflow::gpu::{AdapterChoice, Gpu};
+use sliceflow::neighbors::addressing::AddressingRow;
+use sliceflow::neighbors::storage::StorageRow;
+use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
 use sliceflow::plan::{Plan, Wanted};
 use sliceflow::scene::{Particles, Scene, load};
 use sliceflow::simulation::{Frame, Simulation};
@@ -46,6 +49,53 @@ pub fn simulate(scene: &Scene, wanted: &Wanted) -> Simulation {
     let gpu = Gpu::open(&AdapterChoice::Best, true).expect("tests need an adapter; software Vulkan will do");
     let plan = Plan::new(scene, &gpu.limits, wanted).expect("a plan");
     Simulation::new(gpu, scene, &plan).expect("a simulation")
+}
+
+/// A way to address voxels and a way to keep particles in them.
+#[allow(dead_code)]
+pub type GridRows = (&'static AddressingRow, &'static StorageRow);
+
+/// Each way to address voxels with one way to keep particles; every way to keep them occurs. Each `shift` gives other pairs.
+///
+/// Compiling shaders is what tests spend their time on, and every pair has some of its own. `random_points` of
+/// `tests/neighbors.rs` has all pairs.
+#[allow(dead_code)]
+pub fn grids_in_turn(shift: usize) -> Vec<GridRows> {
+    let storages = STORAGES.iter().cycle().skip(shift);
+    ADDRESSINGS.iter().zip(storages).collect()
+}
+
+/// Each way to address voxels with each storage that is queried in its own way: those that sort particles answer alike, and
+/// take turns.
+#[allow(dead_code)]
+pub fn grids_by_query() -> Vec<GridRows> {
+    let (sorting, others): (Vec<_>, Vec<_>) = STORAGES.iter().partition(|row| row.sorts);
+    let in_turn = ADDRESSINGS.iter().zip(sorting.into_iter().cycle());
+    in_turn
+        .flat_map(|(addressing, sorting)| {
+            let storages = [sorting].into_iter().chain(others.clone());
+            storages.map(move |storage| (addressing, storage))
+        })
+        .collect()
+}
+
+/// Grids with the axes across which they are sliced: in 3D every grid that is queried in its own way, in 2D every way to
+/// address voxels. Which way slices lie makes no difference to how voxels keep particles.
+#[allow(dead_code)]
+pub fn grids_and_axes(dimensions: usize) -> Vec<(GridRows, &'static str)> {
+    let (grids, others): (_, &[&str]) = match dimensions {
+        2 => (grids_in_turn(0), &["x"]),
+        _ => (grids_by_query(), &["x", "z"]),
+    };
+    let sliced = grids_in_turn(1).into_iter().filter(|grid| has_slices(grid.0));
+    let turned = sliced.flat_map(|grid| others.iter().map(move |&axis| (grid, axis)));
+    grids.into_iter().map(|grid| (grid, "y")).chain(turned).collect()
+}
+
+/// Whether it matters across which axis slices lie.
+#[allow(dead_code)]
+pub fn has_slices(addressing: &AddressingRow) -> bool {
+    !["uniform", "hash", "morton"].contains(&addressing.name)
 }
 
 /// Frames up to `last`, and those under way.

@@ -21,7 +21,7 @@ struct Collider {
     velocity: vec4f, // m/s
 }
 
-var<storage, read> colliders: array<Collider>;
+var<uniform> colliders: array<Collider, COLLIDERS>;
 #if mesh_colliders
 // Signed distances at the nodes of each mesh's field, m; x runs fastest, then y, then z.
 var<storage, read> distance_field: array<f32>;
@@ -140,7 +140,7 @@ fn with_collider(before: ContactSum, collider: Collider, x: Vector, v: Vector) -
 
 fn with_colliders(before: ContactSum, x: Vector, v: Vector) -> ContactSum {
     var sum = before;
-    for (var c = 0u; c < arrayLength(&colliders); c++) {
+    for (var c = 0u; c < COLLIDERS; c++) {
         sum = with_collider(sum, colliders[c], x, v);
     }
     return sum;

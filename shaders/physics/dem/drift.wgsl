@@ -29,8 +29,8 @@ fn drift(thread: Thread) {
 #if clamp_walls
     clamp_to_walls(&moved, &v);
 #end
-    watch(id[i], x, &moved, &v);
-    leave(i, moved, v);
+    watch(i, x, &moved, &v);
+    leave(i, moved, pack(v));
 #if adaptive_step
     note_extremes(a, length(v), 0.0);
 #end

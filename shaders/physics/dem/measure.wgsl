@@ -23,19 +23,6 @@ fn measure_grains(thread: Thread) {
 #if column_pressure
         pressure[i] = sum.normal_force / measure.surface;
 #end
-#if column_density
-        let home = voxel_of(unpack(position[i]));
-        var around = 0u;
-        for (var k = 0u; k < RANGES; k++) {
-            let range = candidate_range(home, k);
-            for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
-                // Some searches offer candidates from elsewhere.
-                let away = abs(voxel_of(unpack(position[candidate(slot)])) - home);
-                around += u32(all(away <= Coordinate(i32(REACH))));
-            }
-        }
-        density[i] = f32(around) * measure.mass / measure.block_volume;
-#end
     }
 #if statistics
     var sums = Sums();

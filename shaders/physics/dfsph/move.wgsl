@@ -8,11 +8,8 @@
 #import cells/images
 #import physics/dfsph/loop
 #import fields/position
-// Before, how the particle goes, m/s; then its position. In w the impulse that corrected it, as a pressure, Pa.
 #import fields/next_position/write
 #import fields/next_velocity/write
-#import fields/id
-#import fields/keep
 #if faces
 #import physics/fluid/coefficients
 #import physics/fluid/rim
@@ -29,9 +26,8 @@ fn move_fluid(thread: Thread) {
     }
     let x = unpack(position[i]);
     let pressure = number_of(next_velocity[i]);
-    let correction = number_of(next_position[i]);
     var v = unpack(next_velocity[i]);
-    var moved = wrapped(x + time_step() * unpack(next_position[i]));
+    var moved = wrapped(x + time_step() * v);
 #if faces
     // One layer of boundary particles holds the fluid; what is thrown against it all the same stops at the wall's face.
     let margin = 0.4 * fluid.spacing; // of the half spacing that `rim` lies inside
@@ -47,10 +43,9 @@ fn move_fluid(thread: Thread) {
     keep_within_rim(&moved, &v);
 #end
 #end
-    watch(id[i], x, &moved, &v);
-    next_position[i] = pack_with(moved, correction);
+    watch(i, x, &moved, &v);
+    next_position[i] = pack(moved);
     next_velocity[i] = pack_with(v, pressure);
-    keep_fields(i);
 #if adaptive_step
     note_extremes(first(parameters.gravity), length(v), 0.0);
 #end

@@ -10,7 +10,6 @@
 #import fields/next_position/write
 #import fields/next_velocity/write
 #import fields/id
-#import fields/keep
 
 @compute @workgroup_size(GROUP_SIZE)
 fn move_boundary(thread: Thread) {
@@ -21,5 +20,4 @@ fn move_boundary(thread: Thread) {
     let v = wall_velocity(i);
     next_position[i] = pack(wrapped(unpack(position[i]) + time_step() * v.motion));
     next_velocity[i] = pack(v.motion + v.surface);
-    keep_fields(i);
 }

@@ -2,16 +2,13 @@
 #flag writes_state
 #import common/thread
 #import physics/fluid/pairs
-#import physics/fluid/material
-#import physics/fluid/state
-#if viscous_velocities
-// The velocity that viscous forces see: the fluid's own, and one of boundary particles that makes the fluid stick.
-var<storage, read_write> viscous_velocity: array<Packed>;
-#end
+#import physics/fluid/beside
+#import physics/fluid/numbered
 
 @compute @workgroup_size(GROUP_SIZE)
 fn extend_to_boundary(thread: Thread) {
-    let i = item_index(thread);
+    let number = item_index(thread);
+    let i = numbered_particle(number);
     if i >= parameters.particle_count {
         return;
     }
@@ -23,14 +20,8 @@ fn extend_to_boundary(thread: Thread) {
         return;
     }
     let x = unpack(position[i]);
-    var weights = 0.0;
-    var pressure = 0.0;
-    var weight_moment = Vector(0.0);
-    var stiffness = 0.0;
-#if viscous_velocities
-    var moving = Vector(0.0);
-#end
-    let home = around(i, x);
+    var beside = Beside();
+    let home = around(number, x);
     for (var k = 0u; k < RANGES; k++) {
         let range = candidate_range(home, k);
         for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
@@ -40,23 +31,15 @@ fn extend_to_boundary(thread: Thread) {
                 let weight = kernel(length(s));
                 let state = fluid_state[j];
                 let other = material_of(j);
-                weights += weight;
-                pressure += weight * state.y;
-                weight_moment += (weight * other.density * (1.0 + state.x)) * s;
-                stiffness += weight * other.stiffness;
+                beside.weights += weight;
+                beside.pressure += weight * state.y;
+                beside.weight_moment += (weight * other.density * (1.0 + state.x)) * s;
+                beside.stiffness += weight * other.stiffness;
 #if viscous_velocities
-                moving += weight * unpack(velocity[j]);
+                beside.velocity += weight * unpack(velocity[j]);
 #end
             }
         }
     }
-    let none = weights <= 0.0;
-    let share = select(1.0 / weights, 0.0, none);
-    let extended = select((pressure - dot(first(parameters.gravity), weight_moment)) * share, fluid.background_pressure, none);
-    let p = allowed_pressure(extended);
-    let e = deviation_at(select(stiffness * share, fluid.stiffness, none), p);
-    fluid_state[i] = vec2f(e, p);
-#if viscous_velocities
-    viscous_velocity[i] = pack(select(2.0 * v - moving * share, v, none));
-#end
+    extend(i, x, v, beside);
 }

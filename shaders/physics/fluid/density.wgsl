@@ -7,6 +7,7 @@
 #import physics/fluid/pairs
 #import physics/fluid/material
 #import physics/fluid/state
+#import physics/fluid/pair_state
 #if planes
 #import physics/fluid/planes
 #end
@@ -88,7 +89,9 @@ fn find_density(thread: Thread) {
     {density}_limit(own, &density);
 #end
     let pressure = pressure_at(made_of.stiffness, density.deviation);
-    fluid_state[i] = vec2f(density.deviation, allowed_pressure(pressure));
+    let state = vec2f(density.deviation, allowed_pressure(pressure));
+    fluid_state[i] = state;
+    pair_state[i] = pair_state_of(x, own.velocity, state);
 }
 
 fn neighbor_at(j: u32, s: Vector) -> Neighbor {

@@ -1,9 +1,9 @@
 // What is known of densities before a step's are found.
 #if continuity
-var<storage, read> density_deviation: array<f32>; // ρ/ρ₀ − 1
+#import fields/density_deviation
 
 fn deviation_before(i: u32) -> f32 {
-    return density_deviation[i];
+    return density_deviation_of(i);
 }
 #else
 fn deviation_before(i: u32) -> f32 {

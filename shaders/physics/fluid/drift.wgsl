@@ -5,16 +5,13 @@
 #import physics/guard
 #import physics/fluid/pairs
 #import physics/fluid/material
-#import physics/fluid/state
+#import physics/fluid/pair_state
 #import physics/fluid/next
 #if rim
 #import physics/fluid/rim
 #end
 #if adaptive_step
 #import physics/fluid/note
-#end
-#if boundary_particles
-#import physics/fluid/wall_motion
 #end
 
 var<storage, read> acceleration: array<Packed>;
@@ -23,27 +20,22 @@ var<storage, read_write> next_acceleration: array<Packed>;
 @compute @workgroup_size(GROUP_SIZE)
 fn drift_fluid(thread: Thread) {
     let i = item_index(thread);
-    if i >= parameters.particle_count {
+    if i >= parameters.particle_count || is_boundary(i) {
         return;
     }
     let dt = time_step();
-    let x = unpack(position[i]);
-    let deviation = fluid_state[i].x;
+    // Velocities have been corrected since.
+    let found = pair_state_at(i).place;
+    let x = unpack(found);
+    let deviation = number_of(found);
     next_acceleration[i] = acceleration[i];
-#if boundary_particles
-    if is_boundary(i) {
-        let v = wall_velocity(i);
-        leave_fluid(i, wrapped(x + dt * v.motion), v.motion + v.surface, deviation);
-        return;
-    }
-#end
     let a = unpack(acceleration[i]);
     var v = unpack(velocity[i]) + dt * a;
     var moved = wrapped(x + dt * (v - 0.5 * dt * a));
 #if rim
     keep_within_rim(&moved, &v);
 #end
-    watch(id[i], x, &moved, &v);
+    watch(i, x, &moved, &v);
     leave_fluid(i, moved, v, deviation);
 #if adaptive_step
     note_fluid(a, v, deviation);

@@ -7,6 +7,7 @@
 #import physics/fluid/pairs
 #import physics/fluid/material
 #import physics/fluid/state
+#import physics/fluid/pair_state
 #import physics/fluid/viscous
 #import physics/fluid/slip
 #if matrices
@@ -56,8 +57,9 @@ struct Neighbor {
 }
 
 fn forces_on(i: u32) -> Forces {
-    let x = unpack(position[i]);
-    let own = own_at(i);
+    let mine = pair_state_at(i);
+    let x = unpack(mine.place);
+    let own = own_at(i, mine);
     var forces = Forces();
 #each force {force}_begin
     {force}_begin(own, &forces);
@@ -67,13 +69,14 @@ fn forces_on(i: u32) -> Forces {
         let range = candidate_range(home, k);
         for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
-            let s = toward(x, j);
+            let theirs = pair_state_at(j);
+            let s = nearest_image(unpack(theirs.place) - x);
 #if of_one_body
             if within(s, fluid.support) && is_sensed(j) {
 #else
             if within(s, fluid.support) && j != i {
 #end
-                let other = neighbor_at(j, s);
+                let other = neighbor_at(j, s, theirs);
 #each force {force}_pair
                 {force}_pair(own, other, &forces);
 #end
@@ -103,25 +106,25 @@ fn forces_on(i: u32) -> Forces {
     return forces;
 }
 
-fn own_at(i: u32) -> Own {
+fn own_at(i: u32, state: PairState) -> Own {
     let made_of = material_of(i);
-    let state = fluid_state[i];
-    return Own(i, unpack(velocity[i]), state.x, state.y, made_of, made_of.density * (1.0 + state.x));
+    let deviation = number_of(state.place);
+    let density = made_of.density * (1.0 + deviation);
+    return Own(i, unpack(state.motion), deviation, number_of(state.motion), made_of, density);
 }
 
-fn neighbor_at(j: u32, s: Vector) -> Neighbor {
-    let state = fluid_state[j];
+fn neighbor_at(j: u32, s: Vector, state: PairState) -> Neighbor {
     var other = Neighbor();
     other.index = j;
     other.s = s;
     other.r = length(s);
-    other.volume = volume_at(state.x);
+    other.deviation = number_of(state.place);
+    other.volume = volume_at(other.deviation);
     other.weight = other.volume * kernel_slope(other.r);
-    other.deviation = state.x;
-    other.pressure = state.y;
+    other.pressure = number_of(state.motion);
     other.material = material_of(j);
-    other.velocity = unpack(velocity[j]);
-    other.viscous = viscous(j);
+    other.velocity = unpack(state.motion);
+    other.viscous = viscous(j, other.velocity);
     other.stretch = 1.0;
     other.wall = is_boundary(j);
     return other;

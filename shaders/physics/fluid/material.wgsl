@@ -12,7 +12,7 @@ struct Material {
 }
 
 #if several_materials
-var<storage, read> materials: array<Material>;
+var<uniform> materials: array<Material, MATERIALS>;
 
 fn material_of(i: u32) -> Material {
     return materials[material[i]];

@@ -1,12 +1,13 @@
 // Where a step leaves the fluid's particles for the search.
 #import physics/next
 #if continuity
-#import fields/next_density_deviation/write
+#import fields/velocity/pack
 #end
 
 fn leave_fluid(i: u32, x: Vector, v: Vector, deviation: f32) {
-    leave(i, x, v);
 #if continuity
-    next_density_deviation[i] = deviation;
+    leave(i, x, pack_velocity(v, deviation));
+#else
+    leave(i, x, pack(v));
 #end
 }

@@ -3,6 +3,7 @@
 #import physics/fluid/pairs
 #import physics/fluid/material
 #import physics/fluid/state
+#import physics/fluid/pair_state
 #import physics/fluid/matrix
 #import physics/fluid/viscous
 #if planes
@@ -19,21 +20,24 @@ fn find_stress(thread: Thread) {
     if i >= parameters.particle_count || is_boundary(i) {
         return;
     }
-    let x = unpack(position[i]);
-    let v = unpack(velocity[i]);
+    let mine = pair_state_at(i);
+    let x = unpack(mine.place);
+    let v = unpack(mine.motion);
     var slopes = Matrix();
     let home = around(i, x);
     for (var k = 0u; k < RANGES; k++) {
         let range = candidate_range(home, k);
         for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
-            let s = toward(x, j);
+            let theirs = pair_state_at(j);
+            let s = nearest_image(unpack(theirs.place) - x);
             if within(s, fluid.support) && j != i {
-                let weight = volume_at(fluid_state[j].x) * kernel_slope(length(s));
+                let weight = volume_at(number_of(theirs.place)) * kernel_slope(length(s));
+                let seen = viscous(j, unpack(theirs.motion));
 #if slips
-                slopes -= weight * outer(select(viscous(j) - v, Vector(0.0), is_boundary(j)), s);
+                slopes -= weight * outer(select(seen - v, Vector(0.0), is_boundary(j)), s);
 #else
-                slopes -= weight * outer(viscous(j) - v, s);
+                slopes -= weight * outer(seen - v, s);
 #end
             }
         }
@@ -43,7 +47,7 @@ fn find_stress(thread: Thread) {
     let cells = cells_beyond(x);
     for (var number = 0u; number < cells; number++) {
         let cell = beyond(x, number);
-        let weight = cell.share * volume_at(fluid_state[i].x) * kernel_slope(length(cell.offset));
+        let weight = cell.share * volume_at(number_of(mine.place)) * kernel_slope(length(cell.offset));
         slopes -= weight * outer(cell.stretch * (cell.velocity - v), cell.offset);
     }
 #end

@@ -4,6 +4,7 @@
 #import physics/fluid/pairs
 #import physics/fluid/material
 #import physics/fluid/state
+#import physics/fluid/pair_state
 #if planes
 #import physics/fluid/planes
 #end
@@ -24,7 +25,8 @@ fn find_surface(thread: Thread) {
         surface_normal[i] = pack(Vector(0.0));
         return;
     }
-    let x = unpack(position[i]);
+    let mine = pair_state[i].place;
+    let x = unpack(mine);
     var normal = Vector(0.0);
     var offset = Vector(0.0); // of the mass around: where the fluid lies, less noisy than the slope
     var wall_normal = Vector(0.0);
@@ -33,10 +35,11 @@ fn find_surface(thread: Thread) {
         let range = candidate_range(home, k);
         for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
-            let s = toward(x, j);
+            let theirs = pair_state[j].place;
+            let s = nearest_image(unpack(theirs) - x);
             if within(s, fluid.support) && j != i {
                 let r = length(s);
-                let slope = -volume_at(fluid_state[j].x) * kernel_slope(r) * s;
+                let slope = -volume_at(number_of(theirs)) * kernel_slope(r) * s;
                 let near = (1.0 - r / fluid.support) * s;
                 wall_normal += select(Vector(0.0), slope, is_boundary(j));
 #if several_materials
@@ -55,7 +58,7 @@ fn find_surface(thread: Thread) {
     for (var number = 0u; number < cells; number++) {
         let cell = beyond(x, number);
         let r = length(cell.offset);
-        let slope = -cell.share * volume_at(fluid_state[i].x) * kernel_slope(r) * cell.offset;
+        let slope = -cell.share * volume_at(number_of(mine)) * kernel_slope(r) * cell.offset;
         normal += slope;
         offset += (cell.share * max(1.0 - r / fluid.support, 0.0)) * cell.offset;
         wall_normal += slope;

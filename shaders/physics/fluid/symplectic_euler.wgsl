@@ -11,28 +11,19 @@
 #if adaptive_step
 #import physics/fluid/note
 #end
-#if boundary_particles
-#import physics/fluid/wall_motion
-#end
 
 @compute @workgroup_size(GROUP_SIZE)
 fn move_fluid(thread: Thread) {
     let i = item_index(thread);
-    if i >= parameters.particle_count {
+    if i >= parameters.particle_count || is_boundary(i) {
         return;
     }
     let dt = time_step();
-    let x = unpack(position[i]);
-    var deviation = fluid_state[i].x;
-#if boundary_particles
-    if is_boundary(i) {
-        let v = wall_velocity(i);
-        leave_fluid(i, wrapped(x + dt * v.motion), v.motion + v.surface, deviation);
-        return;
-    }
-#end
+    let mine = pair_state_at(i);
+    let x = unpack(mine.place);
+    var deviation = number_of(mine.place);
     let forces = forces_on(i);
-    var v = unpack(velocity[i]) + dt * forces.acceleration;
+    var v = unpack(mine.motion) + dt * forces.acceleration;
     var moved = x + dt * v;
 #if shifting
     let displacement = forces.shifting.displacement;
@@ -44,7 +35,7 @@ fn move_fluid(thread: Thread) {
 #if rim
     keep_within_rim(&moved, &v);
 #end
-    watch(id[i], x, &moved, &v);
+    watch(i, x, &moved, &v);
     leave_fluid(i, moved, v, deviation);
 #if adaptive_step
     note_fluid(forces.acceleration, v, deviation);

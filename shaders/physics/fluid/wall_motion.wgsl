@@ -3,7 +3,7 @@
 // By id, from `parameters.first_boundary` on.
 var<storage, read> boundary: array<vec4f>; // surface velocity, m/s; w: the body's number, -1 for the domain's sides
 #if moving_boundaries
-var<storage, read> body_velocity: array<vec4f>; // m/s
+var<uniform> body_velocity: array<vec4f, BODIES>; // m/s
 #end
 
 struct WallVelocity {

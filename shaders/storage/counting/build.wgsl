@@ -3,7 +3,7 @@
 // atomics had.
 #import common/thread
 #import common/parameters
-#import fields/place
+#import storage/sorted/origin
 
 var<storage, read> voxel_start: array<u32>;
 var<storage, read> particle_voxel: array<u32>;
@@ -36,7 +36,7 @@ fn reorder_particles(thread: Thread) {
     for (var other = begin; other < end; other++) {
         slot += u32(arrived[other] < i);
     }
-    place(i, slot);
+    take_place(i, slot);
 }
 #else
 @compute @workgroup_size(GROUP_SIZE)
@@ -45,6 +45,6 @@ fn reorder_particles(thread: Thread) {
     if i >= parameters.particle_count {
         return;
     }
-    place(i, voxel_start[particle_voxel[i]] + arrival[i]);
+    take_place(i, voxel_start[particle_voxel[i]] + arrival[i]);
 }
 #end

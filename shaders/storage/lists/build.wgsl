@@ -8,17 +8,32 @@
 #import cells/images
 #import physics/fluid/boundary_particles
 #import <storage>
+#if boundary_in_reach
+#import storage/lists/reach_word
+
+// By their place among all boundary particles.
+var<storage, read_write> reach_mark: array<atomic<u32>>;
+#end
 
 var<storage, read_write> neighbor_list: array<u32>;
 #if !lists_every_step
 var<storage, read_write> listed_position: array<Packed>;
 #end
 
-// Lists those of a range that are near y, beside `count` others; returns how many they are then. In y those are counted that
-// stand at the end of the row.
-fn list_range(i: u32, wall: bool, y: Vector, range: vec2u, count: vec2u) -> vec2u {
+#if boundary_in_reach
+// The look before the atomic spares all but the first particle of the fluid that meets this one most of them.
+fn mark_reached(j: u32) {
+    let word = (j - parameters.free_count) / 32u;
+    if (atomicLoad(&reach_mark[word]) & reach_bit(j)) == 0u {
+        atomicOr(&reach_mark[word], reach_bit(j));
+    }
+}
+#end
+
+// Lists those of a range that are near y in a row, beside `count` others; returns how many they are then. In y those are
+// counted that stand at the end of the row.
+fn list_range(i: u32, row: u32, wall: bool, y: Vector, range: vec2u, count: vec2u) -> vec2u {
     var found = count;
-    let row = list_row(i);
     for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
         let j = candidate(slot);
         // Boundary particles ask for the fluid only.
@@ -37,46 +52,39 @@ fn list_range(i: u32, wall: bool, y: Vector, range: vec2u, count: vec2u) -> vec2
             }
             found.x += 1u;
 #end
+#if boundary_in_reach
+#if !lists_boundary
+            if is_boundary(j) {
+                mark_reached(j);
+            }
+#end
+#end
         }
     }
     return found;
 }
 
-@compute @workgroup_size(GROUP_SIZE)
-fn list_candidates(thread: Thread) {
-    let i = item_index(thread);
-    if i >= parameters.particle_count {
-        return;
-    }
-    let x = unpack(position[i]);
-    let wall = is_boundary(i);
-#if lists_every_step
-    if wall {
-        return;
-    }
-#end
+// Makes the list with this number, that of particle i at x.
+fn list_around(i: u32, number: u32, wall: bool, x: Vector) {
+    let row = list_row(number);
     let second = second_row();
     var count = vec2u(0u);
-    for (var number = 0u; number < IMAGES; number++) {
+    for (var image_number = 0u; image_number < IMAGES; image_number++) {
         var y: Vector;
-        if !image(x, number, grid.list_reach, &y) {
+        if !image(x, image_number, grid.list_reach, &y) {
             continue;
         }
         let home = voxel_of(y);
         for (var k = 0u; k < RANGE_PAIRS; k++) {
             let pair = range_pair(home, k, second);
-            count = list_range(i, wall, y, pair.xy, count);
+            count = list_range(i, row, wall, y, pair.xy, count);
 #if separated
             if !wall {
-                count = list_range(i, false, y, pair.zw, count);
+                count = list_range(i, row, false, y, pair.zw, count);
             }
 #end
         }
     }
-#if !lists_every_step
-    listed_position[i] = pack(x);
-#end
-    let row = list_row(i);
     neighbor_list[row] = min(count.x, grid.list_capacity);
 #if walls_apart
     neighbor_list[row + LIST_LANES] = min(count.y, grid.list_capacity - min(count.x, grid.list_capacity));
@@ -85,4 +93,28 @@ fn list_candidates(thread: Thread) {
     if length > atomicLoad(&list_state.longest) {
         atomicMax(&list_state.longest, length);
     }
+}
+
+@compute @workgroup_size(GROUP_SIZE)
+fn list_candidates(thread: Thread) {
+    let i = item_index(thread);
+    if i >= parameters.particle_count {
+        return;
+    }
+    let wall = is_boundary(i);
+#if lists_every_step
+    if wall {
+        return;
+    }
+#end
+#if boundary_in_reach
+    if wall {
+        return;
+    }
+#end
+    let x = unpack(position[i]);
+#if !lists_every_step
+    listed_position[i] = pack(x);
+#end
+    list_around(i, i, wall, x);
 }

@@ -9,6 +9,7 @@
 #import cells/grid
 #import cells/reallocation
 #import physics/clock
+#import physics/guard
 #if adaptive_step
 #import physics/step_control
 #end
@@ -17,20 +18,38 @@
 // Arguments of an indirect dispatch: whether the passes that lay out the grid run.
 var<storage, read_write> search_dispatch: vec4u;
 
-// Has a kind of passes run over all particles, or over none.
-fn set_particles(which: u32, all: bool) {
-    let particles = dispatch[select(DISPATCH_PARTICLES, DISPATCH_FREE, which >= DISPATCH_FREE)];
-    dispatch[which] = select(vec4u(0u, 0u, 0u, particles.w), particles, all);
+// Has a kind of passes run over its particles, or over none.
+fn set_particles(which: u32, run: bool) {
+    var base = DISPATCH_PARTICLES;
+    if which >= DISPATCH_FREE {
+        base = select(DISPATCH_FREE, DISPATCH_REACHED, which >= DISPATCH_REACHED);
+    }
+    let particles = dispatch[base];
+    dispatch[which] = select(vec4u(0u, 0u, 0u, particles.w), particles, run);
 }
 
 fn set_moving(moves: bool) {
     set_particles(DISPATCH_MOVING, moves);
     set_particles(DISPATCH_MOVING_FREE, moves);
+    set_particles(DISPATCH_MOVING_REACHED, moves);
+}
+
+fn set_returning(moves: bool) {
+    set_particles(DISPATCH_RETURNING, moves);
+    set_particles(DISPATCH_RETURNING_FREE, moves);
+    set_particles(DISPATCH_RETURNING_REACHED, moves);
+}
+
+fn set_kept(serve: bool) {
+    set_particles(DISPATCH_KEPT, serve);
+    set_particles(DISPATCH_KEPT_FREE, serve);
+    set_particles(DISPATCH_KEPT_REACHED, serve);
 }
 
 fn set_search(runs: bool) {
     set_particles(DISPATCH_SEARCHED, runs);
     set_particles(DISPATCH_SEARCHED_FREE, runs);
+    set_particles(DISPATCH_SEARCHED_REACHED, runs);
     search_dispatch = vec4u(u32(runs), 1u, 1u, 0u);
 }
 
@@ -57,7 +76,7 @@ fn has_moved() -> bool {
     if (dispatch[DISPATCH_MOVING].x | dispatch[DISPATCH_RETURNING].x) != 0u {
         return true;
     }
-    set_particles(DISPATCH_KEPT, false);
+    set_kept(false);
     return false;
 }
 
@@ -65,16 +84,16 @@ fn decide_search() {
 #if lists_every_step
     let due = true;
 #else
-    let due = atomicLoad(&list_state.moved) != 0u || frame_ends();
+    let due = atomicLoad(&guard.far) != 0u || frame_ends();
 #end
     let returned = dispatch[DISPATCH_RETURNING].x != 0u;
     let goes_on = !due && steps_are_left();
-    atomicStore(&list_state.moved, 0u);
+    atomicStore(&guard.far, 0u);
     list_state.searches += u32(due);
     set_search(due);
-    set_particles(DISPATCH_KEPT, !due);
+    set_kept(!due);
     set_moving(goes_on && returned);
-    set_particles(DISPATCH_RETURNING, goes_on && !returned);
+    set_returning(goes_on && !returned);
     set_particles(DISPATCH_AWAY, !due && !returned);
     set_particles(DISPATCH_RETURNED, due && returned);
 #if fixed_room

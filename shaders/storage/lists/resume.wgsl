@@ -9,7 +9,7 @@ fn resume_steps() {
     set_search(false);
     dispatch[DISPATCH_SCAN] = vec4u(0u, 0u, 0u, dispatch[DISPATCH_SCAN].w);
     set_moving(steps_are_left());
-    set_particles(DISPATCH_RETURNING, false);
+    set_returning(false);
     set_particles(DISPATCH_AWAY, false);
     set_particles(DISPATCH_RETURNED, false);
 }

@@ -2,6 +2,9 @@
 // particles apart, the row begins with two numbers: of the others, which come next, and of boundary particles, which stand at
 // the row's end. These are LIST_HEAD numbers.
 //
+// Where boundary particles out of reach have no lists, the rows of the others follow those of the fluid
+// (storage/lists/reached.wgsl).
+//
 // Rows of LIST_LANES particles are interleaved, so that threads side by side read numbers side by side.
 #import cells/grid
 

@@ -1,7 +1,6 @@
 // Whether lists still serve.
 
 struct ListState {
-    moved: atomic<u32>, // not zero: a particle has moved so far that a neighbor may be missing from a list
     longest: atomic<u32>, // list of the last search, in full
     searches: u32, // steps that searched, since the run began
     first_step: u32, // of the clock when the run began or went on: frames end at multiples of their steps from there

@@ -2,7 +2,7 @@
 #import common/vector
 #import cells/grid
 #import cells/images
-#import storage/lists/state
+#import physics/guard
 
 var<storage, read> listed_position: array<Packed>;
 
@@ -10,6 +10,6 @@ var<storage, read> listed_position: array<Packed>;
 fn watch_list(i: u32, moved: Vector) {
     let moved_by = nearest_image(moved - unpack(listed_position[i]));
     if dot(moved_by, moved_by) > grid.list_move {
-        atomicStore(&list_state.moved, 1u);
+        atomicStore(&guard.far, 1u);
     }
 }

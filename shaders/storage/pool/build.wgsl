@@ -3,7 +3,7 @@
 // two indices and hands on the other. Otherwise slots go by order of arrival (Green 2012).
 #import common/thread
 #import common/parameters
-#import fields/place
+#import fields/position
 #import <addressing>
 
 const NOBODY: u32 = 0xffffffffu;
@@ -45,8 +45,7 @@ fn insert_particles(thread: Thread) {
     if i >= parameters.particle_count {
         return;
     }
-    place(i, i);
-    let at = voxel_of(unpack(next_position[i]));
+    let at = voxel_of(unpack(position[i]));
     if is_quarantined(at) {
         return;
     }

@@ -3,7 +3,7 @@
 // The file that imports this one says what was sorted: `sorted_voxel(slot)` and `sorted_particle(slot)`.
 #import common/thread
 #import common/parameters
-#import fields/place
+#import storage/sorted/origin
 
 // Of particles, until the prefix sum.
 var<storage, read_write> voxel_start: array<atomic<u32>>;
@@ -17,7 +17,7 @@ fn rearrange_particles(thread: Thread) {
     if slot >= parameters.particle_count {
         return;
     }
-    place(sorted_particle(slot), slot);
+    take_place(sorted_particle(slot), slot);
     let last = parameters.particle_count - 1u;
     let voxel = sorted_voxel(slot);
     if slot == 0u || sorted_voxel(max(slot, 1u) - 1u) != voxel {

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use crate::neighbors::occupancy::{Allocation, Census, Octree};
-use crate::neighbors::{ADDRESSINGS, STORAGES, lists};
+use crate::neighbors::{ADDRESSINGS, Room, STORAGES, lists};
 use crate::scene::{Neighbors, Particles, Scene};
 use crate::study::bench::grid_names;
 use crate::study::scenes::LISTS;
@@ -55,7 +55,11 @@ impl<'a> Memory<'a> {
             ..self.scene.clone()
         };
         let lists = if lists::wanted(&scene) {
-            lists::buffers(&scene, lists::usual_length(&scene))
+            let room = Room {
+                list: lists::usual_length(&scene),
+                ..Room::default()
+            };
+            lists::buffers(&scene, room)
         } else {
             Vec::new()
         };

@@ -68,11 +68,12 @@ fn times(pass: &PassPlan, rates: Rates) -> f64 {
     match pass.items {
         Items::SearchedParticles
         | Items::SearchedFreeParticles
+        | Items::SearchedReachedParticles
         | Items::SearchedOnce
         | Items::ReturnedParticles
         | Items::Voxels
         | Items::VoxelBlocks => rates.searches,
-        Items::KeptParticles => 1.0 - rates.searches,
+        Items::KeptParticles | Items::KeptFreeParticles | Items::KeptReachedParticles => 1.0 - rates.searches,
         // Where lists last for an even number of steps there is nothing to take back.
         Items::AwayParticles => 0.0,
         // The first one of each loop starts it, before any iteration.
@@ -86,9 +87,7 @@ fn times(pass: &PassPlan, rates: Rates) -> f64 {
 fn of_pass(plan: &Plan, phase: Phase, pass: &PassPlan, pairs: f64) -> Result<Demand> {
     let particles = u64::from(plan.capacity);
     // Threads of other passes go over voxels or sums, and move little beside those over particles.
-    let of_particles = plan.most_items(pass.items, plan.capacity) == plan.capacity
-        && !matches!(pass.items, Items::Voxels | Items::Fixed(_));
-    if !of_particles || particles == 0 {
+    if pass.items.over().is_none() || particles == 0 {
         return Ok(Demand::default());
     }
     let shader = Shader::load(&pass.shader, &plan.variant_of(phase))?;
