@@ -12,6 +12,9 @@
 // Before, how the particle goes, m/s; then its position, and in w the impulse that corrected it, as a pressure, Pa.
 #import fields/next_position/write
 #import fields/next_velocity/write
+#if boundary_particles
+#import fields/id
+#end
 #if faces
 #import physics/fluid/coefficients
 #import physics/fluid/rim
