@@ -10,6 +10,9 @@
 #import fields/position
 #import fields/next_position/write
 #import fields/next_velocity/write
+#if boundary_particles
+#import fields/id
+#end
 #if faces
 #import physics/fluid/coefficients
 #import physics/fluid/rim
