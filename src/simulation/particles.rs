@@ -130,7 +130,7 @@ impl Simulation {
     }
 
     /// Of the values that all particles have of a field.
-    fn bytes_of(&self, field: &str) -> usize {
+    pub(super) fn bytes_of(&self, field: &str) -> usize {
         let found = self.scene.fields().find(|known| known.name == field);
         found.map_or(0, |found| found.kind.bytes(self.scene.dimensions) as usize) * self.count as usize
     }
