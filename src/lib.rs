@@ -62,6 +62,27 @@
 //! buffer, the fragment stage shades a sphere, and the pixels, a few figures and only the columns that a sink wants
 //! travel through a ring of staging buffers (`src/gpu/readback.rs`) to the encoder threads of `src/output/png.rs`.
 //!
+//! # A viscosity's way from key to acceleration
+//!
+//! 1. `src/scene/model/fluid.rs` has the key, its range and its text; `src/scene/changes.rs` lets events change it.
+//! 2. `src/scene/fluid.rs` makes a number of each material of it, chooses its formula, and limits steps by it.
+//! 3. The formula is a row of `src/physics/formulas.rs`, which says when it takes part.
+//! 4. `src/physics/fluid.rs` writes the number for the device, into a struct of `src/physics/layout.rs`.
+//! 5. `shaders/physics/fluid/material.wgsl` gives it to both particles of a pair.
+//! 6. `shaders/physics/fluid/forces/laplacian_viscosity.wgsl`, or another file of that folder, makes a force of it.
+//! 7. `shaders/physics/fluid/forces.wgsl` sums the forces that take part, and
+//!    `shaders/physics/fluid/symplectic_euler.wgsl` moves the particle by them.
+//!
+//! # A kinetic energy's way from particle to file
+//!
+//! 1. `shaders/physics/fluid/measure.wgsl` finds it for a particle (of a grain, the file of that name in
+//!    `shaders/physics/dem/`).
+//! 2. `shaders/physics/sums.wgsl` says how two are added; the device adds those of all particles.
+//! 3. `src/gpu/readback.rs` brings the sum to the host with the frame.
+//! 4. `src/simulation/frame.rs` has it among the frame's figures.
+//! 5. `src/output/statistics.rs` gives it a key and a unit in `stats.jsonl`; the guide's page of keys is made from there.
+//! 6. `src/output/rerun/series.rs` draws it as a series.
+//!
 //! # To add
 //!
 //! - a scene: one JSON file in `assets/scenes/`;

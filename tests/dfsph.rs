@@ -20,13 +20,7 @@ fn frames(scene: &Scene, last: u32) -> (Simulation, Vec<Frame>) {
         ..Default::default()
     };
     let mut simulation = common::simulate(scene, &wanted);
-    let mut frames = Vec::new();
-    for _ in 0..=last {
-        frames.extend(simulation.next_frame().expect("a frame"));
-    }
-    while let Some(frame) = simulation.finish_frame().expect("a frame") {
-        frames.push(frame);
-    }
+    let frames = common::frames(&mut simulation, last);
     (simulation, frames)
 }
 

@@ -13,8 +13,9 @@ struct StepControlLimits {
 
 var<uniform> step_limits: StepControlLimits;
 
-// What limits a step (physics::step_control::LIMITS): STIFFNESS where the fluid is pressed so much that sound is faster in it than
-// expected, MOTION where something is faster than expected, FRAME where the end of a frame or of what goes on in it does.
+// What limits a step (physics::step_control::LIMITS): STIFFNESS where the fluid is pressed so much that sound is faster in
+// it than expected, MOTION where something is faster than expected, FRAME where the end of a frame or of what goes on in it
+// does.
 
 // A step may be longer than the one before by this factor, and shorter by any.
 const GROWTH: f32 = 1.1;
@@ -60,7 +61,8 @@ fn choose_step() {
     step_control.wanted = min(allowed, grown);
     step_control.stalled = u32(step_control.wanted < step_limits.shortest);
 
-    // What is left of the segment is cut into equal steps, so that none is a sliver (physics::step_control::StepControl::aim).
+    // What is left of the segment is cut into equal steps, so that none is a sliver
+    // (physics::step_control::StepControl::aim).
     let steps = ceil(f32(step_control.left) * step_control.tick / step_control.wanted - ROUNDING);
     step_control.next_ticks = select(max(u32(f32(step_control.left) / steps), 1u), step_control.left, steps <= 1.0);
     step_control.next_step = f32(step_control.next_ticks) * step_control.tick;

@@ -164,6 +164,7 @@ fn search(gpu: Gpu, scene: &Scene, args: &Args) -> Result<Found> {
     let mut found = None;
     for _ in 0..args.repeat {
         drop(found.take());
+        simulation.stand_still()?;
         build.push(timed(|| simulation.search_again())?.1);
         let (counts, ms) = timed(|| simulation.count_neighbors(&query))?;
         count.push(ms);

@@ -72,10 +72,13 @@ impl Health {
     /// What is good to know when the run is over.
     pub fn note(&self) -> Option<String> {
         (self.reallocations > 0).then(|| {
+            let often = match self.reallocations {
+                1 => "once".to_owned(),
+                times => format!("{times} times"),
+            };
             format!(
-                "the grid's buffers were made larger {} times, and the steps concerned were made again; \
-                 a higher neighbors.margin avoids that",
-                self.reallocations
+                "the grid's buffers were made larger {often}, and the steps concerned were made again; \
+                 a higher neighbors.margin avoids that"
             )
         })
     }

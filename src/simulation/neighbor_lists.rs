@@ -8,6 +8,7 @@ use crate::gpu::buffers::Usage;
 use crate::gpu::readback::{self, Ring};
 use crate::gpu::{Buffers, Pass, Shader};
 use crate::neighbors::{FROM_VOXELS, lists};
+use crate::scene::field::{Field, Travels};
 
 /// Neighbors by id, compressed: those of particle i are `ids[start[i]..start[i + 1]]`, in ascending order.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -86,7 +87,19 @@ impl Simulation {
         Ok(query)
     }
 
-    /// Runs the search again, without moving anything, and waits for it.
+    /// A step that moves nothing: leaves all particles for [`Simulation::search_again`].
+    pub fn stand_still(&self) -> Result<()> {
+        let mut encoder = self.encoder("stand still");
+        // A search itself leaves what no step changes for the next one.
+        let stepped = |field: &&Field| field.travels == Travels::Stepped && field.beside.is_none();
+        for field in self.scene.fields().filter(stepped) {
+            self.copy_for_search(&mut encoder, field)?;
+        }
+        self.gpu.submit(encoder)?;
+        self.gpu.wait(None)
+    }
+
+    /// Runs the search again and waits for it.
     pub fn search_again(&self) -> Result<()> {
         self.search()?;
         self.gpu.wait(None)

@@ -62,26 +62,15 @@ impl Simulation {
                 continue;
             }
             // The others have by now what their last step left.
-            let read = |name| {
-                let buffer = self.buffers.get(name, "(host)")?;
-                readback::read::<u8>(gpu, buffer, self.bytes_of(name))
-            };
-            match (field.ends_in, beside.and_then(|beside| beside.ends_in)) {
-                (Some((other, place)), _) => {
-                    let numbers = self.number_of(other, place, &read(other)?);
-                    self.buffers.write(gpu, &next, 0, &numbers)?;
-                }
-                (None, Some((other, place))) => {
-                    let mut vectors = read(field.name)?;
-                    put_beside(&mut vectors, &self.number_of(other, place, &read(other)?));
-                    self.buffers.write(gpu, &next, 0, &vectors)?;
-                }
-                (None, None) => {
-                    let from = self.buffers.get(field.name, "(host)")?;
-                    let to = self.buffers.get(&next, "(host)")?;
-                    encoder.copy_buffer_to_buffer(from, 0, to, 0, (each * first) as u64);
-                }
+            if field.ends_in.is_none() && beside.is_none_or(|beside| beside.ends_in.is_none()) {
+                self.copy_for_search(&mut encoder, field)?;
+                continue;
             }
+            let left = self.left_by_step(field, |name| {
+                let buffer = self.buffers.get(name, "(host)")?;
+                readback::read(gpu, buffer, self.bytes_of(name)).map(Some)
+            })?;
+            self.buffers.write(gpu, &next, 0, &left.expect("it was read"))?;
         }
         self.count += all as u32;
         if let Some(limits) = &self.scene.time.adaptive {
@@ -127,6 +116,14 @@ impl Simulation {
             return Ok(Vec::new());
         }
         Ok(self.by_id(ids, state.into_iter().map(|state| state[component]).collect()))
+    }
+
+    /// Copies on the device what the last search found of a field to where the next one takes it from.
+    pub(super) fn copy_for_search(&self, encoder: &mut wgpu::CommandEncoder, field: &Field) -> Result<()> {
+        let from = self.buffers.get(field.name, "(host)")?;
+        let to = self.buffers.get(&field.before_search(), "(host)")?;
+        encoder.copy_buffer_to_buffer(from, 0, to, 0, self.bytes_of(field.name) as u64);
+        Ok(())
     }
 
     /// Of the values that all particles have of a field.

@@ -12,7 +12,7 @@ use crate::neighbors::lists;
 
 /// Steps from one search to the next, before anything is known.
 pub(super) const USUAL_LIST_LIFETIME: f64 = 8.0;
-/// Rounds have room for so many times the steps of a list.s average lifetime: a step that is left out is cheaper than a
+/// Rounds have room for so many times the steps of a list's average lifetime: a step that is left out is cheaper than a
 /// search that is.
 const ROOM: f64 = 1.25;
 /// Adaptive steps that are submitted before the host looks how long they are by then.

@@ -223,18 +223,7 @@ impl Simulation {
         }
         // The search puts every particle where it stood, since it keeps the order inside a voxel.
         for field in self.scene.fields() {
-            let mut stored = state.buffer(field.name).map(<[u8]>::to_vec);
-            if let Some((other, place)) = field.ends_in {
-                stored = state
-                    .buffer(other)
-                    .map(|bytes| self.number_of(other, place, bytes));
-            }
-            let ends = self.scene.beside(field).and_then(|beside| beside.ends_in);
-            if let (Some(vectors), Some((other, place))) = (&mut stored, ends)
-                && let Some(bytes) = state.buffer(other)
-            {
-                put_beside(vectors, &self.number_of(other, place, bytes));
-            }
+            let stored = self.left_by_step(field, |name| Ok(state.buffer(name).map(<[u8]>::to_vec)))?;
             self.put(&field.before_search(), stored.as_deref())?;
         }
         if let (true, Some(why)) = (lists::can_be_left_out(&self.scene), &state.lists_left_out) {
@@ -301,8 +290,29 @@ impl Simulation {
         self.put("given_column", Some(bytemuck::cast_slice(values)))
     }
 
+    /// What the last step left of a field for a search, made from what buffers hold, which `read` gets by name. `None` where
+    /// a buffer is not there.
+    pub(super) fn left_by_step(
+        &self,
+        field: &Field,
+        read: impl Fn(&str) -> Result<Option<Vec<u8>>>,
+    ) -> Result<Option<Vec<u8>>> {
+        if let Some((other, place)) = field.ends_in {
+            let stored = read(other)?;
+            return Ok(stored.map(|bytes| self.number_of(other, place, &bytes)));
+        }
+        let mut stored = read(field.name)?;
+        let ends = self.scene.beside(field).and_then(|beside| beside.ends_in);
+        if let (Some(vectors), Some((other, place))) = (&mut stored, ends)
+            && let Some(bytes) = read(other)?
+        {
+            put_beside(vectors, &self.number_of(other, place, &bytes));
+        }
+        Ok(stored)
+    }
+
     /// One number of a field's values, of all particles.
-    pub(super) fn number_of(&self, field: &str, place: usize, bytes: &[u8]) -> Vec<u8> {
+    fn number_of(&self, field: &str, place: usize, bytes: &[u8]) -> Vec<u8> {
         let found = self.scene.fields().find(|known| known.name == field);
         let found = found.expect("fields end in fields of the same scene");
         let width = found.kind.bytes(self.scene.dimensions) as usize;

@@ -11,6 +11,8 @@
 #import cells/images
 #if resting_boundary
 #import physics/fluid/numbered
+#else
+#import fields/position
 #end
 #if velocity_verlet
 #import fields/acceleration
@@ -29,7 +31,13 @@ fn move_boundary(thread: Thread) {
     }
     let v = wall_velocity(i);
     let mine = pair_state_at(i);
-    let moved = wrapped(unpack(mine.place) + time_step() * v.motion);
+#if resting_boundary
+    let x = unpack(mine.place);
+#else
+    // Where no fluid is near, the pair state stays as the search left it, while bodies move on.
+    let x = unpack(position[i]);
+#end
+    let moved = wrapped(x + time_step() * v.motion);
     leave_fluid(i, moved, v.motion + v.surface, number_of(mine.place));
 #if velocity_verlet
     next_acceleration[i] = acceleration[i];

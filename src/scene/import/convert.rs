@@ -113,7 +113,7 @@ fn obstacles(
         let (min, max) = placed.bounds();
         let (is_box, is_closed) = (is_box(&placed), placed.open_edges() == 0);
         let holds_fluid = fluid.0.cmpge(min).all() && fluid.1.cmple(max).all();
-        let is_container = is_box && (body.is_inverted || (body.is_boundary && holds_fluid));
+        let is_container = is_box && (body.is_inverted || (body.is_wall && holds_fluid));
         match (is_container, &found.container) {
             (true, None) => {
                 found.container = Some((min, max));
@@ -165,7 +165,7 @@ fn collider(body: &RigidBody, shape: Value) -> Value {
         let [r, g, b] = color.map(|channel| (channel.clamp(0.0, 1.0) * 255.0).round() as u8);
         collider["color"] = format!("#{r:02x}{g:02x}{b:02x}").into();
     }
-    if body.is_boundary {
+    if body.is_wall {
         // As there: walls are not drawn.
         collider["visible"] = false.into();
     }

@@ -64,7 +64,7 @@ pub struct RigidBody {
     pub geometry: Option<String>,
     pub transform: Transform,
     pub is_dynamic: bool,
-    pub is_boundary: bool,
+    pub is_wall: bool,
     /// Whether the inside is free.
     pub is_inverted: bool,
     pub color: Option<[f64; 3]>,
@@ -189,7 +189,7 @@ fn rigid_body(keys: &mut Keys) -> Result<RigidBody, Problem> {
         geometry: keys.text("geometryFile")?,
         transform: transform(keys)?,
         is_dynamic: keys.flag("isDynamic")?.unwrap_or(false),
-        is_boundary: keys.flag("isWall")?.unwrap_or(false),
+        is_wall: keys.flag("isWall")?.unwrap_or(false),
         is_inverted: keys.flag("mapInvert")?.unwrap_or(false),
         color: keys.color("color")?,
     })

@@ -3,7 +3,7 @@
 
 struct Shifting {
     crowd: Vector, // gradient of concentration, 1/m
-    deviation_slope: Vector, // of density , 1/m
+    deviation_slope: Vector, // of ρ/ρ₀, 1/m
     displacement: Vector, // m
 }
 

@@ -16,7 +16,7 @@ pub const POISEUILLE: Case = Case {
     title: "Start of Poiseuille flow",
     about: "A constant force drives fluid between two plates from rest (scene `poiseuille`; Morris 1997, Eq. 21). The \
             figure is the L2 norm of the particles' velocity errors over the final speed at the middle: the worst of \
-            all moments from νt/d² = 0.02 to 1. BoundaryParticles of boundary particles (Adami 2012) and planes (Rojas 2013).",
+            all moments from νt/d² = 0.02 to 1. Walls of boundary particles (Adami 2012) and planes (Rojas 2013).",
     resolution: "particles across",
     label: |n| n.to_string(),
     resolutions,
@@ -30,7 +30,7 @@ pub const COUETTE: Case = Case {
     title: "Start of Couette flow",
     about: "The upper of two plates begins to slide over fluid at rest (scene `couette`; Morris 1997, Eq. 22). The \
             figure is the L2 norm of the particles' velocity errors over the plate's speed: the worst of all moments \
-            from νt/d² = 0.02 to 1. BoundaryParticles of boundary particles (Adami 2012) and planes (Rojas 2013).",
+            from νt/d² = 0.02 to 1. Walls of boundary particles (Adami 2012) and planes (Rojas 2013).",
     resolution: "particles across",
     label: |n| n.to_string(),
     resolutions,

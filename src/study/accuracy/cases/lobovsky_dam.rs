@@ -21,7 +21,7 @@ pub const CASE: Case = Case {
     about: "Water 0.3 m deep runs through a tank of 1.61 m and hits the far wall (scene `lobovsky_dam`; Lobovský 2014). \
             Pressures at the wall are kernel means over the particles within 2.5 spacings of the sensors, with air as \
             zero, averaged over 1 ms. The peak is given twice: as such, and with TrixiParticles' sensor, a mean over the \
-            fluid within 8 spacings, since the peak depends on what it is averaged over. BoundaryParticles slip, with \
+            fluid within 8 spacings, since the peak depends on what it is averaged over. Walls slip, with \
             the friction of turbulent water, and particles are shifted, without which those near the floor thin out and \
             clump; a second method has neither, but artificial viscosity. Support and speed of sound are \
             TrixiParticles'. A splash is chaotic: like those of the experiment, figures are medians of several runs (5 in \
