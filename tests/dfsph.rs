@@ -2,11 +2,13 @@
 
 mod common;
 
+use std::path::Path;
+
 use glam::Vec3;
 use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
 use sliceflow::physics::layout::Convergence;
 use sliceflow::plan::Wanted;
-use sliceflow::scene::Scene;
+use sliceflow::scene::{Scene, load};
 use sliceflow::simulation::{Frame, Simulation};
 
 fn dfsph(dimensions: usize, overrides: &[&str]) -> Scene {
@@ -60,7 +62,7 @@ fn water_that_fills_a_tank_comes_to_rest_at_its_level() {
             .all(|p| p.y > 0.0 && p.x > 0.0 && p.x < 1.0)
     );
     let loops = convergence(last);
-    assert_eq!(loops.divergence_unconverged, 0);
+    assert_eq!((loops.density_unconverged, loops.divergence_unconverged), (0, 0));
 }
 
 #[test]
@@ -70,13 +72,24 @@ fn loops_end_on_the_device_when_they_have_converged() {
     let loops = convergence(&frames[2]);
     let most = scene.fluid().expect("a fluid").max_iterations;
     assert!(loops.steps > 0);
-    assert!(
-        loops.divergence_iterations >= loops.steps,
-        "at least one iteration per step"
-    );
-    let longest = loops.most_divergence_iterations;
-    assert!(longest < most, "{longest} of {most}");
-    assert!(loops.divergence_error <= 1e-4, "{}", loops.divergence_error);
+    for (iterations, longest, error, allowed) in [
+        (
+            loops.density_iterations,
+            loops.most_density_iterations,
+            loops.density_error,
+            1e-4,
+        ),
+        (
+            loops.divergence_iterations,
+            loops.most_divergence_iterations,
+            loops.divergence_error,
+            1e-4,
+        ),
+    ] {
+        assert!(iterations >= loops.steps, "at least one iteration per step");
+        assert!(longest < most, "{longest} of {most}");
+        assert!(error <= allowed, "{error}");
+    }
 
     // A loop that may not go on as long as it needs says so.
     let short = dfsph(3, &["fluid.max_iterations=3", "fluid.max_divergence_error=1e-6"]);
@@ -159,4 +172,57 @@ fn every_grid_gives_the_same_flow() {
         // Sums in another order, over some steps.
         assert!(farthest < 2e-4, "{addressing}-{storage}: {farthest} m");
     }
+}
+
+/// A block of water, 32 particles high, hits the floor with all of itself at once.
+#[test]
+fn an_impact_gives_no_energy() {
+    let scene = dfsph(
+        2,
+        &[
+            "colliders=[]",
+            "domain={\"min\":[0,0],\"max\":[2,1.6]}",
+            "fluid.spacing=0.025",
+            "fluid.viscosity=0",
+            "bodies=[{\"shape\":{\"kind\":\"box\",\"min\":[0.6,0.033],\"max\":[1.4,0.833]},\"velocity\":[0,-1]}]",
+            "gravity=[0,-9.81]",
+            "time={\"duration\":0.2,\"fps\":100}",
+        ],
+    );
+    let (_, frames) = frames(&scene, 20);
+    let energy = |frame: &Frame| {
+        let statistics = frame.statistics.expect("statistics");
+        statistics.kinetic_energy + statistics.potential_energy
+    };
+    let most = frames.iter().map(energy).fold(f64::MIN, f64::max);
+    let fallen = energy(&frames[0]);
+    assert!(most < 1.01 * fallen, "{most} J of {fallen} J");
+    let last = frames[20].statistics.expect("statistics");
+    let [mean, _] = last.density_error.expect("a fluid's");
+    assert!(mean < 0.1, "{mean}");
+}
+
+#[test]
+fn deep_water_at_rest_has_the_pressure_of_the_column_above() {
+    let text = include_str!("../assets/scenes/still_water.json");
+    let overrides = [
+        "fluid.solver=dfsph",
+        "fluid.spacing=0.04",
+        "time={\"duration\":5,\"fps\":1}",
+    ];
+    let scene =
+        load::parse(text, "still_water", Path::new("."), &overrides.map(str::to_owned)).expect("a scene");
+    let (simulation, frames) = frames(&scene, 5);
+    let particles = simulation.particles().expect("particles");
+    let pressures = simulation.pressures().expect("pressures");
+    let count = pressures.len() as f64;
+    // Height of the surface, gravity and density are 1 m, 1 m/s² and 1000 kg/m³.
+    let height = |p: &Vec3| p.as_dvec3().y + scene.origin.y;
+    let wrong = |(p, pressure): (&Vec3, &f32)| (f64::from(*pressure) - 1000.0 * (1.0 - height(p))).abs();
+    let error = particles.position.iter().zip(&pressures).map(wrong).sum::<f64>() / count / 1000.0;
+    assert!(error < 0.01, "pressure is off by {error} of that on the floor");
+    let mean = particles.position.iter().map(height).sum::<f64>() / count;
+    assert!((mean - 0.5).abs() < 1e-3, "mean height {mean} m");
+    let fastest = frames[5].statistics.expect("statistics").max_speed;
+    assert!(fastest < 3e-3, "{fastest} of √(gH)");
 }

@@ -115,9 +115,17 @@ impl From<&AdaptiveSteps> for Adaptive {
 /// How the loops of an iterative pressure solver went.
 #[derive(Serialize, JsonSchema)]
 struct PressureSolver {
-    /// Iterations in a step, on average; each is two sweeps over the pressure equation.
+    /// Iterations of the loop of density in a step, on average.
+    density_iterations_mean: f64,
+    /// Its iterations in the step that took most.
+    density_iterations_max: u32,
+    /// What the worst step stopped at: mean of max(ρ/ρ₀ − 1, 0) over the particles.
+    density_error_max: f64,
+    /// Steps that stopped at `fluid.max_iterations` before the density was good enough.
+    density_unconverged_steps: u32,
+    /// Iterations of the loop of divergence in a step, on average.
     divergence_iterations_mean: f64,
-    /// Iterations in the step that took most.
+    /// Its iterations in the step that took most.
     divergence_iterations_max: u32,
     /// What the worst step stopped at: mean of what its divergence adds to ρ/ρ₀.
     divergence_error_max: f64,
@@ -129,6 +137,10 @@ impl From<&Convergence> for PressureSolver {
     fn from(from: &Convergence) -> Self {
         let mean = |iterations: u32| f64::from(iterations) / f64::from(from.steps.max(1));
         Self {
+            density_iterations_mean: mean(from.density_iterations),
+            density_iterations_max: from.most_density_iterations,
+            density_error_max: from.density_error.into(),
+            density_unconverged_steps: from.density_unconverged,
             divergence_iterations_mean: mean(from.divergence_iterations),
             divergence_iterations_max: from.most_divergence_iterations,
             divergence_error_max: from.divergence_error.into(),

@@ -1,11 +1,13 @@
 //! Divergence-free SPH (Bender and Koschier 2015, 2017): an incompressible fluid, whose steps may be as long as its motion
 //! allows, since no sound has to be followed.
 //!
-//! A step finds velocities after all forces but pressure, looks for the pressures that free them of divergence, and moves
-//! particles by what they become: an approximate projection (Cummins and Rudman 1999), whose Laplacian joins neighbors only, so
-//! that pressures of neighbors cannot come apart. Too much density is undone by and by, as a part of what pressures have to
-//! undo. The loop for pressures is recorded as often as it may run; the device lets the rest run on nothing once it has
-//! converged (`shaders/physics/dfsph/control.wgsl`). Pressures are never negative, so the fluid has free surfaces.
+//! A step finds velocities after all forces but pressure, and looks for the pressures that free them of divergence: an
+//! approximate projection (Cummins and Rudman 1999), whose Laplacian joins neighbors only, so that pressures of neighbors cannot
+//! come apart (`shaders/physics/dfsph/relax.wgsl`). What it does not see is a remainder, which one iteration a step keeps up
+//! (`shaders/physics/dfsph/remainder.wgsl`). A second loop corrects where particles go, so that densities do not exceed the
+//! rest density; what it corrects does not become motion. Loops are recorded as often as they may run; the device lets the rest
+//! run on nothing once they have converged (`shaders/physics/dfsph/control.wgsl`). Pressures are never negative, so the fluid
+//! has free surfaces.
 
 use super::collider::Obstacles;
 use super::dem::has_wall;
@@ -23,10 +25,15 @@ use crate::scene::{self, Matter, Scene};
 
 /// Sums that the errors of all particles are added to.
 const ERROR_SUMS: u32 = 256;
-/// Number of the loop.
-pub const DIVERGENCE: u32 = 0;
-/// Relaxation of Jacobi's iteration; with the momentum that it has, it converges up to 0.5.
+/// Numbers of the loops.
+pub const DENSITY: u32 = 0;
+pub const DIVERGENCE: u32 = 1;
+/// Relaxation of Jacobi's sweeps; with the momentum that the loop of pressure has, they converge up to 0.5.
 const RELAXATION: f32 = 0.45;
+/// The same in the loop of density, and the share of an iteration's step that the next one goes on with: together they converge
+/// in splashes, where 0.45 and 0.5 do not.
+const DENSITY_RELAXATION: f32 = 0.3;
+const MOMENTUM: f32 = 0.7;
 
 /// The row of incompressible fluids.
 pub(super) const MODEL: Model = Model {
@@ -74,6 +81,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         .flag("artificial_viscosity", damped)
         .flag("drag", viscous || damped)
         .constant("ERROR_SUMS", ERROR_SUMS)
+        .constant("DENSITY_LOOP", DENSITY)
         .constant("DIVERGENCE_LOOP", DIVERGENCE)
         // What only compressible fluids have, in shaders that they share.
         .without(&["clamped_pressure", "continuity", "several_materials"])
@@ -92,7 +100,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         false => each,
     };
     solver.buffers.extend([
-        BufferPlan::storage("own", listed, 12, "what a pressure solve keeps of each particle"),
+        BufferPlan::storage("own", listed, 32, "what the loops keep of each particle"),
         BufferPlan::storage(
             "impulse",
             2 * listed,
@@ -105,12 +113,12 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             4,
             "errors of particles, added as whole numbers",
         ),
-        BufferPlan::indirect("loop_dispatch", 2, 16, "workgroups of the loop while it goes on"),
+        BufferPlan::indirect("loop_dispatch", 4, 16, "workgroups of the loops that go on"),
         BufferPlan::indirect(
             "check_dispatch",
-            1,
+            2,
             16,
-            "a workgroup for the checks of the loop",
+            "a workgroup for the checks of those loops",
         ),
         BufferPlan::storage(
             "convergence",
@@ -152,14 +160,16 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     let once = Items::Fixed(1);
     let all = Items::Particles;
     let free = Items::FreeParticles;
-    let repeated = |sparse, pass| PassPlan {
+    let density = Items::Loop(DENSITY);
+    let repeated = |number, sparse, pass| PassPlan {
         repeat: Some(Repeat {
-            number: DIVERGENCE,
+            number,
             times: fluid.max_iterations,
             sparse,
         }),
         ..pass
     };
+    let watch = "whether the loop goes on, so that its checks run";
     solver.before_search.extend([
         pass(
             "apply_forces",
@@ -175,15 +185,12 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         ),
         pass("control", "begin_divergence_loop", once, "the loop begins"),
         repeated(
+            DIVERGENCE,
             true,
-            pass(
-                "control",
-                "watch_divergence_loop",
-                once,
-                "whether the loop goes on, so that its checks run",
-            ),
+            pass("control", "watch_divergence_loop", once, watch),
         ),
         repeated(
+            DIVERGENCE,
             false,
             pass(
                 "relax",
@@ -193,6 +200,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             ),
         ),
         repeated(
+            DIVERGENCE,
             false,
             pass(
                 "control",
@@ -202,6 +210,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             ),
         ),
         repeated(
+            DIVERGENCE,
             false,
             pass(
                 "relax",
@@ -211,18 +220,81 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             ),
         ),
         pass(
+            "remainder",
+            "add_remainder",
+            free,
+            "pressures, and what acts with them",
+        ),
+        pass(
             "divergence_push",
             "correct_velocity",
             free,
             "pressures change velocities",
         ),
+        pass(
+            "remainder",
+            "find_remainder",
+            free,
+            "divergence that the compact equation does not see",
+        ),
+        pass(
+            "divergence_push",
+            "push_remainder",
+            free,
+            "an iteration against it changes velocities",
+        ),
     ]);
     solver
         .before_search
         .extend(request.sensors.then(|| sensors::force_pass(scene)).flatten());
-    solver
-        .before_search
-        .push(pass("move", "move_fluid", free, "positions at the step's end"));
+    solver.before_search.extend([
+        pass(
+            "control",
+            "begin_density_loop",
+            once,
+            "the loop of density begins",
+        ),
+        pass(
+            "density_push",
+            "follow_velocity",
+            density,
+            "particles go as their velocities say",
+        ),
+        repeated(DENSITY, true, pass("control", "watch_density_loop", once, watch)),
+        repeated(
+            DENSITY,
+            false,
+            pass(
+                "density_loop",
+                "predict_density",
+                density,
+                "density at the step's end, and the impulse against it",
+            ),
+        ),
+        repeated(
+            DENSITY,
+            false,
+            pass(
+                "control",
+                "check_density",
+                Items::LoopOnce(DENSITY),
+                "whether density has converged",
+            ),
+        ),
+    ]);
+    solver.before_search.extend([
+        repeated(
+            DENSITY,
+            false,
+            pass(
+                "density_push",
+                "push_apart",
+                Items::LoopSecond(DENSITY),
+                "impulses change where particles go",
+            ),
+        ),
+        pass("move", "move_fluid", free, "positions at the step's end"),
+    ]);
     if walls {
         let why = "boundary particles move with their bodies";
         solver
@@ -256,14 +328,21 @@ fn settings(scene: &Scene, fluid: &scene::fluid::Fluid) -> Dfsph {
     let given = coefficients(scene, fluid);
     let slope = kernels::steepest(fluid.kernel, scene.dimensions.count());
     let smoothing = 1.0 / f64::from(given.inverse_smoothing);
-    let surface = kernels::lattice_surface(fluid.kernel, scene.dimensions.count(), smoothing, fluid.spacing);
+    let lattice = kernels::lattice(fluid.kernel, scene.dimensions.count(), smoothing, fluid.spacing);
+    let slope_volume = given.volume / lattice.gradient as f32;
     Dfsph {
+        density_error: fluid.max_density_error as f32,
         divergence_error: fluid.max_divergence_error as f32,
+        density_iterations: fluid.max_iterations,
         divergence_iterations: fluid.max_iterations,
         relaxation: RELAXATION,
-        steepest: given.volume * given.slope_scale / given.inverse_smoothing * slope as f32,
-        surface_density: surface.density as f32,
-        surface_slope: surface.slope as f32,
-        surface_weight: surface.weight as f32,
+        density_relaxation: DENSITY_RELAXATION,
+        momentum: MOMENTUM,
+        slope_volume,
+        lattice_gradient: lattice.gradient as f32,
+        steepest: slope_volume * given.slope_scale / given.inverse_smoothing * slope as f32,
+        surface_density: lattice.surface_density as f32,
+        surface_slope: lattice.surface_slope as f32,
+        surface_weight: lattice.surface_weight as f32,
     }
 }

@@ -57,34 +57,50 @@ pub fn lattice_density(kernel: Kernel, dimensions: usize, h: f64, spacing: f64) 
     sum * normalization(kernel, dimensions) * (spacing / h).powi(dimensions as i32)
 }
 
-/// What a particle at the flat surface of a square or cubic lattice lacks.
-pub struct Surface {
+/// What sums find on a square or cubic lattice, with the volume by which its density is that at rest.
+pub struct Lattice {
+    /// The gradient of a field that rises by 1 per metre.
+    pub gradient: f64,
+    // Of a particle at a flat surface, with the volume by which that gradient is 1.
     /// ρ/ρ₀ that its missing neighbors would add.
-    pub density: f64,
+    pub surface_density: f64,
     /// Length of V Σ ∇W over the neighbors that it has, 1/m.
-    pub slope: f64,
+    pub surface_slope: f64,
     /// 2 V Σ |dW/dr| / r over those that are missing, 1/m².
-    pub weight: f64,
+    pub surface_weight: f64,
 }
 
 /// Of a lattice with so many metres between its points.
-pub fn lattice_surface(kernel: Kernel, dimensions: usize, h: f64, spacing: f64) -> Surface {
+pub fn lattice(kernel: Kernel, dimensions: usize, h: f64, spacing: f64) -> Lattice {
     let reach = (kernel.reach() * h / spacing).ceil() as i32;
     let ticks = |axis: usize| if axis < dimensions { -reach..=reach } else { 0..=0 };
-    let mut found = Surface { density: 0.0, slope: 0.0, weight: 0.0 };
-    let scale = slope_normalization(kernel, dimensions) * (spacing / h).powi(dimensions as i32);
+    let volume = (spacing / h).powi(dimensions as i32) / lattice_density(kernel, dimensions, h, spacing);
+    let mut found = Lattice {
+        gradient: 0.0,
+        surface_density: 0.0,
+        surface_slope: 0.0,
+        surface_weight: 0.0,
+    };
+    // Those on the other side add as much to the gradient.
     for x in 1..=reach {
         for y in ticks(1) {
             for z in ticks(2) {
                 let r = spacing * f64::from(x * x + y * y + z * z).sqrt();
-                let steepness = scale * shape_slope(kernel, dimensions, r / h).abs() / h;
-                found.density += shape(kernel, dimensions, r / h);
-                found.slope += steepness * spacing * f64::from(x) / r;
-                found.weight += 2.0 * steepness / r;
+                let along = spacing * f64::from(x);
+                let steepness = volume
+                    * slope_normalization(kernel, dimensions)
+                    * shape_slope(kernel, dimensions, r / h).abs()
+                    / h;
+                found.surface_density +=
+                    volume * normalization(kernel, dimensions) * shape(kernel, dimensions, r / h);
+                found.surface_slope += steepness * along / r;
+                found.surface_weight += 2.0 * steepness / r;
+                found.gradient += 2.0 * steepness * along * along / r;
             }
         }
     }
-    found.density *= normalization(kernel, dimensions) * (spacing / h).powi(dimensions as i32);
+    found.surface_slope /= found.gradient;
+    found.surface_weight /= found.gradient;
     found
 }
 

@@ -327,12 +327,16 @@ shared_struct! {
     /// How the loops of `dfsph` went since the last frame.
     pub struct Convergence {
         pub steps: u32,
-        /// Summed over the steps.
+        /// Of the loop of density, summed over the steps.
+        pub density_iterations: u32,
+        pub most_density_iterations: u32,
+        /// Steps that stopped at the largest number of iterations.
+        pub density_unconverged: u32,
+        /// What the worst step stopped at, mean of max(ρ/ρ₀ − 1, 0).
+        pub density_error: f32,
         pub divergence_iterations: u32,
         pub most_divergence_iterations: u32,
-        /// Steps that stopped at the largest number of iterations.
         pub divergence_unconverged: u32,
-        /// What the worst step stopped at, mean of what is left of divergence times the step.
         pub divergence_error: f32,
         pub iteration: u32,
     }
@@ -341,13 +345,19 @@ shared_struct! {
 shared_struct! {
     /// What `dfsph` stops at.
     pub struct Dfsph {
+        pub density_error: f32,
         pub divergence_error: f32,
+        pub density_iterations: u32,
         pub divergence_iterations: u32,
         pub relaxation: f32,
-        pub steepest: f32,
+        pub density_relaxation: f32,
+        pub momentum: f32,
+        pub slope_volume: f32,
+        pub lattice_gradient: f32,
         pub surface_density: f32,
         pub surface_slope: f32,
         pub surface_weight: f32,
+        pub steepest: f32,
     }
 }
 

@@ -49,6 +49,7 @@ pub struct Fluid {
     pub sound_speed: f64,
     pub gamma: u32,
     /// Of `dfsph`: at which its loops stop, and most iterations of each.
+    pub max_density_error: f64,
     pub max_divergence_error: f64,
     pub max_iterations: u32,
     /// Of `dfsph`: share of the spacing that the fastest particle moves in a step.
@@ -150,7 +151,7 @@ impl Fluid {
         let kernel = given.kernel.unwrap_or(match given.solver {
             FluidSolver::Sph => Kernel::Muller,
             FluidSolver::Wcsph => Kernel::default(),
-            FluidSolver::Dfsph => Kernel::CubicSpline,
+            FluidSolver::Dfsph => Kernel::WendlandC2,
         });
         let density_from = given.density_from.unwrap_or(match given.solver {
             FluidSolver::Sph | FluidSolver::Dfsph => DensityFrom::Summation,
@@ -217,6 +218,7 @@ impl Fluid {
                 FluidSolver::Sph | FluidSolver::Dfsph => 1,
                 FluidSolver::Wcsph => 7,
             }),
+            max_density_error: given.max_density_error,
             max_divergence_error: given.max_divergence_error,
             max_iterations: given.max_iterations,
             courant_number: given.courant_number,

@@ -1,4 +1,4 @@
-// Begins, checks and ends the loop for pressures.
+// Begins, checks and ends the loops.
 #import physics/dfsph/loop
 #import host/dispatch
 
@@ -53,13 +53,19 @@ struct Found {
     iterations: u32, // that the loop has made then
 }
 
+// Pressures begin where they were, and with two iterations in each step water at rest comes nearer to its pressure than one
+// step's error asks for.
+fn least_iterations(which: u32) -> u32 {
+    return select(0u, 2u, which == DIVERGENCE_LOOP);
+}
+
 // Looks at the errors that a first pass found, and ends the loop when they are small. One iteration is made in any case; where
 // it was not needed, no second look follows.
 fn check(which: u32, largest_error: f32, most_iterations: u32) -> Found {
     let error = mean_error();
     let done = convergence.iteration;
     convergence.iteration = done + 1u;
-    let converged = error <= largest_error;
+    let converged = error <= largest_error && done >= least_iterations(which);
     if converged {
         end(first_pass(which));
         if done > 0u {
@@ -81,13 +87,39 @@ fn mean_error() -> f32 {
 }
 
 @compute @workgroup_size(1)
+fn begin_density_loop() {
+    begin_loop(DENSITY_LOOP);
+}
+
+@compute @workgroup_size(1)
 fn begin_divergence_loop() {
     begin_loop(DIVERGENCE_LOOP);
 }
 
 @compute @workgroup_size(1)
+fn watch_density_loop() {
+    watch(DENSITY_LOOP);
+}
+
+@compute @workgroup_size(1)
 fn watch_divergence_loop() {
     watch(DIVERGENCE_LOOP);
+}
+
+@compute @workgroup_size(1)
+fn check_density() {
+    if !goes_on(DENSITY_LOOP) {
+        return;
+    }
+    let found = check(DENSITY_LOOP, dfsph.density_error, dfsph.density_iterations);
+    if !found.is_last {
+        return;
+    }
+    convergence.steps += 1u;
+    convergence.density_iterations += found.iterations;
+    convergence.most_density_iterations = max(convergence.most_density_iterations, found.iterations);
+    convergence.density_unconverged += u32(!found.converged);
+    convergence.density_error = max(convergence.density_error, found.error);
 }
 
 @compute @workgroup_size(1)
@@ -99,7 +131,6 @@ fn check_divergence() {
     if !found.is_last {
         return;
     }
-    convergence.steps += 1u;
     convergence.divergence_iterations += found.iterations;
     convergence.most_divergence_iterations = max(convergence.most_divergence_iterations, found.iterations);
     convergence.divergence_unconverged += u32(!found.converged);

@@ -1,11 +1,14 @@
-// What the impulses against divergence do to velocities.
+// What pressures do to velocities.
 #flag moves
 #import physics/time_step
 #import physics/dfsph/push
-
 #if boundary_particles
-// Beyond a wall, pressure goes on to grow with depth (Adami 2012, Eq. 27): what that does, per time, m/s².
-var<storage, read> wall_lift: array<Packed>;
+#import physics/dfsph/wall_lift
+#end
+
+var<storage, read> impulse: array<f32>; // Pa·s
+#if boundary_particles
+var<storage, read> wall_lift: array<Packed>; // m/s²
 #end
 var<storage, read_write> next_velocity: array<Packed>; // w: pressure, Pa
 
@@ -13,12 +16,20 @@ var<storage, read_write> next_velocity: array<Packed>; // w: pressure, Pa
 fn correct_velocity(thread: Thread) {
     let i = item_index(thread);
     if i < loop_count() && !is_boundary(i) {
-        var push = push_on(i);
-        let pressure = impulse[i] / time_step();
+        var push = push_on(i, MIRRORED);
+        let pressure = number_of(next_velocity[i]);
 #if boundary_particles
-        let weight = fluid.density * length(first(parameters.gravity)) * fluid.spacing;
-        push += time_step() * clamp(2.0 * pressure / max(weight, 1e-30), 0.0, 1.0) * unpack(wall_lift[i]);
+        push += time_step() * lifted(pressure) * unpack(wall_lift[i]);
 #end
         next_velocity[i] = pack_with(unpack(next_velocity[i]) + push, pressure);
+    }
+}
+
+@compute @workgroup_size(GROUP_SIZE)
+fn push_remainder(thread: Thread) {
+    let i = item_index(thread);
+    if i < loop_count() && !is_boundary(i) {
+        let v = next_velocity[i];
+        next_velocity[i] = pack_with(unpack(v) + push_on(i, MIRRORED), number_of(v));
     }
 }

@@ -25,6 +25,11 @@ var<storage, read_write> wall_lift: array<Packed>; // physics/dfsph/push
 // Below this diagonal, in units of 1/spacing², a particle is alone, and pressure has nothing to act on.
 const LONELY: f32 = 1e-4;
 
+// Of a particle with this diagonal, 1/m².
+fn response(diagonal: f32) -> f32 {
+    return select(fluid.density / diagonal, 0.0, diagonal * fluid.spacing * fluid.spacing < LONELY);
+}
+
 @compute @workgroup_size(GROUP_SIZE)
 fn find_density(thread: Thread) {
     let i = item_index(thread);
@@ -38,6 +43,7 @@ fn find_density(thread: Thread) {
     let v = unpack(velocity[i]);
     var drag = Vector(0.0); // m/s²
 #end
+    var squares = 0.0; // of those that pressure can move, 1/m²
     var weights = 0.0; // of those that have a pressure of their own, 1/m²
 #if boundary_particles
     var pull = Vector(0.0);
@@ -52,7 +58,7 @@ fn find_density(thread: Thread) {
             let s = toward(x, j);
             let r = length(s);
             sum += kernel(r);
-            let steepness = fluid.volume * kernel_slope(r);
+            let steepness = dfsph.slope_volume * kernel_slope(r);
             let slope = steepness * s;
             slopes += slope;
 #if drag
@@ -66,6 +72,7 @@ fn find_density(thread: Thread) {
                 continue;
             }
 #end
+            squares += dot(slope, slope);
             let pair = pair_row(i) + slot - range.x;
             pair_list[pair] = pack_pair(j, slope / dfsph.steepest);
             pair_weight[pair] = -2.0 * steepness;
@@ -78,7 +85,6 @@ fn find_density(thread: Thread) {
         * smoothstep(0.25, 0.75, -deviation / dfsph.surface_density);
     let diagonal = weights + exposed * 2.0 * dfsph.surface_weight;
     let pressure = number_of(velocity[i]);
-    let response = select(fluid.density / diagonal, 0.0, diagonal * fluid.spacing * fluid.spacing < LONELY);
 #if boundary_particles
     wall_pull[i] = pack_with(pull, approach);
     wall_lift[i] = pack(lift);
@@ -86,6 +92,16 @@ fn find_density(thread: Thread) {
 #if drag
     next_velocity[i] = pack(drag);
 #end
-    own[i] = Own(exposed * dfsph.surface_density * min(length(slopes) / dfsph.surface_slope, 1.0), response, 0.0);
+    let lacking = exposed * dfsph.surface_density * min(length(slopes) / dfsph.surface_slope, 1.0);
+    own[i] = Own(
+        deviation / dfsph.lattice_gradient,
+        lacking / dfsph.lattice_gradient,
+        0.0,
+        0.0,
+        0.0,
+        length(slopes),
+        response(diagonal),
+        response(dot(slopes, slopes) + squares),
+    );
     fluid_state[i] = vec2f(deviation, pressure);
 }

@@ -8,6 +8,7 @@
 #import cells/images
 #import physics/dfsph/loop
 #import fields/position
+// Before, how the particle goes, m/s; then its position. w: the pressure's remainder, Pa.
 #import fields/next_position/write
 #import fields/next_velocity/write
 #if boundary_particles
@@ -29,8 +30,9 @@ fn move_fluid(thread: Thread) {
     }
     let x = unpack(position[i]);
     let pressure = number_of(next_velocity[i]);
+    let remainder = number_of(next_position[i]);
     var v = unpack(next_velocity[i]);
-    var moved = wrapped(x + time_step() * v);
+    var moved = wrapped(x + time_step() * unpack(next_position[i]));
 #if faces
     // One layer of boundary particles holds the fluid; what is thrown against it all the same stops at the wall's face.
     let margin = 0.4 * fluid.spacing; // of the half spacing that `rim` lies inside
@@ -47,7 +49,7 @@ fn move_fluid(thread: Thread) {
 #end
 #end
     watch(i, x, &moved, &v);
-    next_position[i] = pack(moved);
+    next_position[i] = pack_with(moved, remainder);
     next_velocity[i] = pack_with(v, pressure);
 #if adaptive_step
     note_extremes(first(parameters.gravity), length(v), 0.0);

@@ -1,9 +1,15 @@
-// What a pressure solve keeps of each particle.
+// What the loops keep of each particle.
 
 struct Own {
-    source: f32, // rate of compression that pressure has to undo, 1/s
-    response: f32, // impulse over the rate at which it thins the fluid out by itself, Pa·s²
-    previous: f32, // impulse of the sweep before, Pa·s
+    // ρ/ρ₀ − 1, over what a sum finds of a gradient of 1 on a lattice: so many times the volume's share that is missing.
+    deviation: f32,
+    source: f32, // rate of compression that pressure has to undo, 1/s; before, the share of density that a surface lacks
+    closing: f32, // rate at which a gap of the fluid may close, 1/s
+    impulse: f32, // the pressure's remainder, then that of the loop of density so far, Pa·s
+    previous: f32, // impulse of the sweep or iteration before, Pa·s
+    most: f32, // impulse of pressure that is allowed, Pa·s; before, the length of the sum of gradients, 1/m
+    response: f32, // impulse over the rate at which it thins the fluid out by itself, in the compact equation, Pa·s²
+    exact_response: f32, // the same of the exact equation
 }
 
 var<storage, read_write> own: array<Own>;

@@ -2,10 +2,8 @@
 #import physics/fluid/coefficients
 #import physics/dfsph/pairs
 
-var<storage, read> impulse: array<f32>; // Pa·s
-
-// Change of velocity by the impulses, m/s. Beyond a wall stands the mirror image of the fluid before it, with the same pressure.
-fn push_on(i: u32) -> Vector {
+// Change of velocity by the impulses, m/s; so often walls count, see compression_rate().
+fn push_on(i: u32, walls: f32) -> Vector {
     let own_impulse = impulse[i];
     var push = Vector(0.0);
     let range = pairs_of(i);
@@ -15,7 +13,7 @@ fn push_on(i: u32) -> Vector {
     }
     push *= dfsph.steepest * gradient_unit();
 #if boundary_particles
-    push += 2.0 * own_impulse * unpack(wall_pull[i]);
+    push += walls * own_impulse * unpack(wall_pull[i]);
 #end
     return push / fluid.density;
 }

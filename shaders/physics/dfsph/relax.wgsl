@@ -10,22 +10,13 @@
 #import physics/dfsph/loop
 #import physics/dfsph/own
 #import physics/dfsph/pair_list
+#import physics/dfsph/errors
 
 var<storage, read> id: array<u32>;
 var<storage, read> neighbor_list: array<u32>;
 var<storage, read> pair_weight: array<f32>; // 1/m²
 var<storage, read_write> impulse: array<f32>; // Pa·s: those before a sweep, and those after it
 var<storage, read> convergence: Convergence;
-var<storage, read_write> error_sum: array<atomic<u32>>; // in units of error_unit()
-
-// Adds an error to one of several sums, so that threads seldom wait for each other. Whole numbers have one sum in whatever
-// order they come, and need no barriers, which are what software adapters are slowest at.
-fn add_error(thread: Thread, error: f32) {
-    if error > 0.0 {
-        let units = u32(min(error, LARGEST_ERROR) / error_unit() + 0.5);
-        atomicAdd(&error_sum[group_index(thread) % ERROR_SUMS], units);
-    }
-}
 
 // Impulses stand at `before` + i, and at `after` + i when the sweep is over. Returns what is left of the source, as a share of
 // density that a step would gain or lose by it.
@@ -42,11 +33,11 @@ fn sweep(i: u32, number: u32, before: u32, after: u32) -> f32 {
         slot += LIST_LANES;
         at += LIST_LANES;
     }
-    let alone = max(mine.response * (mine.source + sum / fluid.density), 0.0);
+    let alone = clamp(mine.response * (mine.source + sum / fluid.density), 0.0, mine.most);
     let momentum = f32(number) / (f32(number) + 3.0);
     let next = present + dfsph.relaxation * (alone - present);
     own[i].previous = next;
-    impulse[after + i] = max(next + momentum * (next - mine.previous), 0.0);
+    impulse[after + i] = clamp(next + momentum * (next - mine.previous), 0.0, mine.most);
     return select(abs(alone - present) / mine.response * time_step(), 0.0, mine.response == 0.0);
 }
 

@@ -1,8 +1,11 @@
-// Forces on walls and obstacles in the step that is being made: what the loop of divergence and viscosity do to each
+// Forces on walls and obstacles in the step that is being made: what pressures and viscosity do to each
 // particle on behalf of one body, reversed. This runs between the loop and the move, since both are in between two samples.
 #flag moves
 #import physics/time_step
 #import physics/fluid/pairs
+#import physics/dfsph/loop
+#import physics/dfsph/own
+#import physics/dfsph/wall_lift
 #import physics/fluid/sensed_walls
 #import physics/sensors/sweep
 #import host/dispatch
@@ -17,6 +20,7 @@ fn force_on(i: u32) -> Vector {
     let x = unpack(position[i]);
     let v = unpack(velocity[i]);
     let pressure = number_of(next_velocity[i]);
+    let acting = pressure + own[i].impulse / time_step();
     var force = Vector(0.0); // N, over the particle's volume
     let home = around(i, x);
     for (var k = 0u; k < RANGES; k++) {
@@ -27,8 +31,9 @@ fn force_on(i: u32) -> Vector {
                 continue;
             }
             let s = toward(x, j);
-            let slope = fluid.volume * kernel_slope(length(s));
-            force += (2.0 * pressure * slope) * s;
+            let slope = dfsph.slope_volume * kernel_slope(length(s));
+            let lift = fluid.density * lifted(pressure) * dot(first(parameters.gravity), s);
+            force += ((2.0 * acting + lift) * slope) * s;
 #if drag
             force += fluid.density * drag_by(j, v, s, slope);
 #end

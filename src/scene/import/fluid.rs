@@ -91,6 +91,9 @@ pub fn substance(peer: &Peer, ignored: &mut Vec<Ignored>) -> Value {
     });
     if is_dfsph {
         fluid["solver"] = "dfsph".into();
+        if let Some(error) = peer.density_error {
+            fluid["max_density_error"] = (error / 100.0).clamp(1e-6, 0.1).into();
+        }
     } else {
         fluid["artificial_viscosity"] = ARTIFICIAL_VISCOSITY.into();
     }

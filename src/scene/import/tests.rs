@@ -99,7 +99,10 @@ fn a_cubic_metre_gives_as_many_particles_as_there() {
     assert_eq!(scene.file.render.color.range, Some([0.0, 4.0]));
     let fluid = scene.fluid().unwrap();
     assert_eq!((fluid.spacing, fluid.materials.len()), (0.05, 1));
-    assert_eq!(fluid.solver, FluidSolver::Dfsph);
+    assert_eq!(
+        (fluid.solver, fluid.max_density_error),
+        (FluidSolver::Dfsph, 0.0005)
+    );
     assert!(imported.notes.iter().any(|note| note.contains("solver `dfsph`")));
 }
 

@@ -39,11 +39,15 @@ pub struct Fluid {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-9, max = 1e9))]
     pub max_speed: Option<f64>,
-    /// Of `dfsph`: mean of what divergence that is left adds to ρ/ρ₀ in a step, at which its loop stops.
+    /// Of `dfsph`: mean of max(ρ/ρ₀ − 1, 0) at which a step's loop of density stops.
+    #[serde(default = "density_error")]
+    #[schemars(range(min = 1e-6, max = 0.1))]
+    pub max_density_error: f64,
+    /// Of `dfsph`: mean of what a step's divergence adds to ρ/ρ₀ at which its loop stops.
     #[serde(default = "divergence_error")]
     #[schemars(range(min = 1e-6, max = 0.1))]
     pub max_divergence_error: f64,
-    /// Of `dfsph`: most iterations of the loop in a step. Steps that stop there are counted in `stats.jsonl`.
+    /// Of `dfsph`: most iterations of each loop in a step. Steps that stop there are counted in `stats.jsonl`.
     #[serde(default = "iterations")]
     #[schemars(range(min = 3, max = 1000))]
     pub max_iterations: u32,
@@ -119,8 +123,12 @@ fn water() -> f64 {
     1000.0
 }
 
-fn divergence_error() -> f64 {
+fn density_error() -> f64 {
     1e-4
+}
+
+fn divergence_error() -> f64 {
+    5e-5
 }
 
 fn iterations() -> u32 {

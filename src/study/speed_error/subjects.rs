@@ -129,7 +129,7 @@ const DFSPH: [(&str, &[&str]); 6] = [
     ("Courant number 0.8", &["fluid.courant_number=0.8"]),
     ("support 2.5", &["fluid.support=2.5"]),
     ("Wendland C2", &["fluid.kernel=wendland_c2"]),
-    ("divergence error 0.1 %", &["fluid.max_divergence_error=1e-3"]),
+    ("density error 0.1 %", &["fluid.max_density_error=1e-3"]),
     ("skin 0.3", &["neighbors.skin=0.3"]),
 ];
 

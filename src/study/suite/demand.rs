@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::gpu::reflect::ResourceKind;
 use crate::gpu::{Items, PassPlan, Shader};
 use crate::neighbors::lists;
-use crate::physics::dfsph::DIVERGENCE;
+use crate::physics::dfsph::{DENSITY, DIVERGENCE};
 use crate::plan::{Phase, Plan};
 use crate::scene::Scene;
 
@@ -22,7 +22,8 @@ pub struct Demand {
 pub struct Rates {
     /// Searches a step.
     pub searches: f64,
-    /// Iterations of the loop of `dfsph`.
+    /// Iterations of the loops of `dfsph`.
+    pub density_iterations: f64,
     pub divergence_iterations: f64,
     /// Pairs in reach, each from both sides.
     pub pairs: f64,
@@ -78,6 +79,7 @@ fn times(pass: &PassPlan, rates: Rates) -> f64 {
         Items::AwayParticles => 0.0,
         // The first one of each loop starts it, before any iteration.
         Items::Loop(_) if pass.repeat.is_none() => 1.0,
+        Items::Loop(DENSITY) | Items::LoopSecond(DENSITY) => rates.density_iterations,
         Items::Loop(DIVERGENCE) | Items::LoopSecond(DIVERGENCE) => rates.divergence_iterations,
         _ => 1.0,
     }
@@ -131,6 +133,7 @@ mod tests {
             let of = |pairs: f64| {
                 let rates = Rates {
                     searches: 0.1,
+                    density_iterations: 3.0,
                     divergence_iterations: 2.0,
                     pairs,
                 };

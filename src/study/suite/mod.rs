@@ -262,6 +262,7 @@ fn one(
     };
     let rates = Rates {
         searches: f64::from(searches) / steps.max(1) as f64,
+        density_iterations: per_loop(|c| c.density_iterations),
         divergence_iterations: per_loop(|c| c.divergence_iterations),
         pairs: pairs as f64,
     };
