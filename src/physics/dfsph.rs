@@ -94,13 +94,15 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         obstacles: Obstacles::of_boundary_particles(scene),
         ..Solver::default()
     };
+    // A vector more where there is drag.
+    let own_bytes = 32 + if viscous || damped { PACKED_BYTES } else { 0 };
     let each = u64::from(scene.capacity);
     let listed = match storage::row(scene.neighbors.storage).sorts {
         true => u64::from(scene.first_boundary()),
         false => each,
     };
     solver.buffers.extend([
-        BufferPlan::storage("own", listed, 32, "what the loops keep of each particle"),
+        BufferPlan::storage("own", listed, own_bytes, "what the loops keep of each particle"),
         BufferPlan::storage(
             "impulse",
             2 * listed,
@@ -137,14 +139,10 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             .push(BufferPlan::constant("rim", &rim_of(scene, fluid), why));
     }
     if walls {
-        let why = "what boundary particles add to the loops";
+        let why = "what boundary particles add to the loops, the same in each iteration";
         solver
             .buffers
-            .push(BufferPlan::storage("wall_pull", listed, PACKED_BYTES, why));
-        let why = "how pressure that grows with depth beyond walls lifts the fluid";
-        solver
-            .buffers
-            .push(BufferPlan::storage("wall_lift", listed, PACKED_BYTES, why));
+            .push(BufferPlan::storage("walls", listed, 2 * PACKED_BYTES, why));
         let why = "boundary particles: velocity of the surface, and whose they are";
         solver
             .buffers

@@ -1,4 +1,5 @@
-// Velocities after all forces but pressure (Bender and Koschier 2015, Algorithm 1).
+// Velocities after all forces but pressure (Bender and Koschier 2015, Algorithm 1), and the remainder that the pressure begins
+// with.
 #flag moves
 #import common/thread
 #import common/vector
@@ -6,13 +7,17 @@
 #import physics/time_step
 #import physics/fluid/boundary_particles
 #import physics/dfsph/loop
+#import physics/dfsph/own
 
+var<storage, read> position: array<Packed>; // w: the pressure's remainder in the step before, Pa
 var<storage, read> velocity: array<Packed>; // w: pressure, Pa
 #if boundary_particles
 var<storage, read> id: array<u32>;
 #end
-// Before, the acceleration by drag, m/s²; then velocity, m/s.
 var<storage, read_write> next_velocity: array<Packed>;
+
+// Share of the last step's remainder (remainder.wgsl) that a step begins with. What no neighbor sees decays.
+const KEPT_REMAINDER: f32 = 0.95;
 
 @compute @workgroup_size(GROUP_SIZE)
 fn apply_forces(thread: Thread) {
@@ -23,7 +28,8 @@ fn apply_forces(thread: Thread) {
     let v = unpack(velocity[i]);
     var acceleration = first(parameters.gravity);
 #if drag
-    acceleration += unpack(next_velocity[i]);
+    acceleration += unpack(own[i].drag);
 #end
     next_velocity[i] = pack(v + time_step() * acceleration);
+    own[i].impulse = KEPT_REMAINDER * time_step() * number_of(position[i]);
 }

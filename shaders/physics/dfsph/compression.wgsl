@@ -4,7 +4,7 @@
 
 // −∇·v at particle i, 1/s. Walls count once as what density sees of them, and twice (`MIRRORED`) where the mirror image of
 // the fluid before them stands beyond, which moves the other way.
-fn compression_rate(i: u32, walls: f32) -> f32 {
+fn compression_rate(i: u32, wall_share: f32) -> f32 {
     let v = velocity_of(i);
     var rates = Vector(0.0);
     let range = pairs_of(i);
@@ -14,7 +14,7 @@ fn compression_rate(i: u32, walls: f32) -> f32 {
     }
     var rate = dfsph.steepest * dot(rates, gradient_unit());
 #if boundary_particles
-    rate += walls * (number_of(wall_pull[i]) - dot(v, unpack(wall_pull[i])));
+    rate += wall_share * (number_of(walls[i].pull) - dot(v, unpack(walls[i].pull)));
 #end
     return rate;
 }

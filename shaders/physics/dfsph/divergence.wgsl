@@ -3,7 +3,6 @@
 #import physics/fluid/coefficients
 #import physics/dfsph/compression
 
-var<storage, read> position: array<Packed>; // w: the pressure's remainder in the step before, Pa
 var<storage, read> velocity: array<Packed>; // w: pressure, Pa
 var<storage, read> next_velocity: array<Packed>; // after all forces but pressure
 var<storage, read_write> impulse: array<f32>; // Pa·s
@@ -14,8 +13,6 @@ const SMALL_GAP: f32 = 0.05;
 // Share of the spacing that pressure may push a particle in a step only because its neighbors stand unevenly around it.
 // Without a bound, the pressure of an impact throws the rows that hit a wall first, and energy comes from nowhere.
 const MOST_PUSH: f32 = 0.25;
-// Share of the last step's remainder that a step begins with. What no neighbor sees decays.
-const KEPT_REMAINDER: f32 = 0.95;
 
 fn velocity_of(j: u32) -> Vector {
     return unpack(next_velocity[j]);
@@ -36,7 +33,6 @@ fn find_divergence(thread: Thread) {
     own[i].closing = closing;
     own[i].source = compression_rate(i, MIRRORED) - closing;
     own[i].most = MOST_PUSH * fluid.density * fluid.spacing / max(2.0 * own[i].most * dt, 1e-30);
-    own[i].impulse = KEPT_REMAINDER * dt * number_of(position[i]);
     own[i].previous = begin;
     impulse[i] = begin;
 }

@@ -7,9 +7,6 @@
 #end
 
 var<storage, read> impulse: array<f32>; // Pa·s
-#if boundary_particles
-var<storage, read> wall_lift: array<Packed>; // m/s²
-#end
 var<storage, read_write> next_velocity: array<Packed>; // w: pressure, Pa
 
 @compute @workgroup_size(GROUP_SIZE)
@@ -19,7 +16,7 @@ fn correct_velocity(thread: Thread) {
         var push = push_on(i, MIRRORED);
         let pressure = number_of(next_velocity[i]);
 #if boundary_particles
-        push += time_step() * lifted(pressure) * unpack(wall_lift[i]);
+        push += time_step() * lifted(pressure) * unpack(walls[i].lift);
 #end
         next_velocity[i] = pack_with(unpack(next_velocity[i]) + push, pressure);
     }

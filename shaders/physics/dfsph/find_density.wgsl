@@ -7,19 +7,18 @@
 #import physics/dfsph/loop
 #import physics/dfsph/own
 #import physics/dfsph/pair_list
+#if boundary_particles
+#import physics/dfsph/walls
+#end
 #if drag
 #import physics/dfsph/drag
-
-// For `apply_forces`: acceleration by drag, m/s².
-var<storage, read_write> next_velocity: array<Packed>;
 #end
 
 var<storage, read_write> pair_list: array<Pair>;
 var<storage, read_write> pair_weight: array<f32>; // 1/m²
 
 #if boundary_particles
-var<storage, read_write> wall_pull: array<Packed>; // physics/dfsph/pairs
-var<storage, read_write> wall_lift: array<Packed>; // physics/dfsph/push
+var<storage, read_write> walls: array<Walls>;
 #end
 
 // Below this diagonal, in units of 1/spacing², a particle is alone, and pressure has nothing to act on.
@@ -86,11 +85,7 @@ fn find_density(thread: Thread) {
     let diagonal = weights + exposed * 2.0 * dfsph.surface_weight;
     let pressure = number_of(velocity[i]);
 #if boundary_particles
-    wall_pull[i] = pack_with(pull, approach);
-    wall_lift[i] = pack(lift);
-#end
-#if drag
-    next_velocity[i] = pack(drag);
+    walls[i] = Walls(pack_with(pull, approach), pack(lift));
 #end
     let lacking = exposed * dfsph.surface_density * min(length(slopes) / dfsph.surface_slope, 1.0);
     own[i] = Own(
@@ -102,6 +97,9 @@ fn find_density(thread: Thread) {
         length(slopes),
         response(diagonal),
         response(dot(slopes, slopes) + squares),
+#if drag
+        pack(drag),
+#end
     );
     fluid_state[i] = vec2f(deviation, pressure);
 }

@@ -1,4 +1,5 @@
 // What the loops keep of each particle.
+#import common/vector
 
 struct Own {
     // ρ/ρ₀ − 1, over what a sum finds of a gradient of 1 on a lattice: so many times the volume's share that is missing.
@@ -10,6 +11,9 @@ struct Own {
     most: f32, // impulse of pressure that is allowed, Pa·s; before, the length of the sum of gradients, 1/m
     response: f32, // impulse over the rate at which it thins the fluid out by itself, in the compact equation, Pa·s²
     exact_response: f32, // the same of the exact equation
+#if drag
+    drag: Packed, // acceleration by viscosities, m/s²
+#end
 }
 
 var<storage, read_write> own: array<Own>;

@@ -6,13 +6,15 @@
 #import physics/dfsph/own
 #import physics/dfsph/pair_list
 #import storage/lists/row
+#if boundary_particles
+#import physics/dfsph/walls
+#end
 
 var<storage, read> id: array<u32>;
 var<storage, read> neighbor_list: array<u32>;
 var<storage, read> pair_list: array<Pair>;
 #if boundary_particles
-// Sum of the gradients at boundary particles, 1/m; w: the rate at which their velocities press the fluid together, 1/s.
-var<storage, read> wall_pull: array<Packed>;
+var<storage, read> walls: array<Walls>;
 #end
 
 // First pair of particle i, and the first one behind. From one to the next are LIST_LANES.

@@ -3,7 +3,7 @@
 #import physics/dfsph/pairs
 
 // Change of velocity by the impulses, m/s; so often walls count, see compression_rate().
-fn push_on(i: u32, walls: f32) -> Vector {
+fn push_on(i: u32, wall_share: f32) -> Vector {
     let own_impulse = impulse[i];
     var push = Vector(0.0);
     let range = pairs_of(i);
@@ -13,7 +13,7 @@ fn push_on(i: u32, walls: f32) -> Vector {
     }
     push *= dfsph.steepest * gradient_unit();
 #if boundary_particles
-    push += walls * own_impulse * unpack(wall_pull[i]);
+    push += wall_share * own_impulse * unpack(walls[i].pull);
 #end
     return push / fluid.density;
 }
