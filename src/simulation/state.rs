@@ -13,7 +13,7 @@ use crate::gpu::readback;
 use crate::neighbors::layout::ListState;
 use crate::neighbors::{Grid, lists};
 use crate::physics::layout::{Clock, Overflow, Packed, StepControl, packed};
-use crate::scene::field::Field;
+use crate::scene::field::{Field, Kind, contact_slots, contact_words};
 use crate::scene::model::Axis;
 use crate::scene::{Action, Dimensions, Scene};
 
@@ -161,10 +161,9 @@ impl Simulation {
             if self.buffers.contains(name) {
                 let buffer = self.buffers.get(name, "(host)")?;
                 let read = readback::read::<u8>(&self.gpu, buffer, bytes);
-                buffers.push((
-                    name.to_owned(),
-                    self.dated(self.next_frame.saturating_sub(1), read)?,
-                ));
+                let mut read = self.dated(self.next_frame.saturating_sub(1), read)?;
+                self.clear_free_slots(name, &mut read);
+                buffers.push((name.to_owned(), read));
             }
         }
         Ok(State {
@@ -175,6 +174,22 @@ impl Simulation {
             lists_left_out: self.plan.lists_left_out.clone(),
             buffers,
         })
+    }
+
+    /// Zeroes what stands behind the slots of contacts that are in use: it was left there by contacts that are no more.
+    fn clear_free_slots(&self, field: &str, bytes: &mut [u8]) {
+        let found = self.scene.fields().find(|known| known.name == field);
+        let Some(Kind::Contacts { rolls }) = found.map(|field| field.kind) else {
+            return;
+        };
+        let dimensions = self.scene.dimensions;
+        let slot = 16 * contact_words(dimensions, rolls) as usize;
+        for grain in bytes.chunks_exact_mut(slot * contact_slots(dimensions) as usize) {
+            let is_free = |slot: &[u8]| slot[12..16] == [0; 4];
+            if let Some(used) = grain.chunks_exact(slot).position(is_free) {
+                grain[slot * used..].fill(0);
+            }
+        }
     }
 
     /// Puts a state back: [`Simulation::next_frame`] then makes the frame after it. The scene may be another one
