@@ -243,15 +243,20 @@ fn a_stack_of_ten_carries_its_weight_and_does_not_creep() {
         [0.0, -G, 0.0],
         json!({ "radius": radius, "law": "linear", "spring": 2000, "restitution": 0.3 }),
     );
+    let weight = mass(radius, 2500.0) * G;
+    // As the closed form has it, where it stays.
+    let mut top = -radius;
     let particles: Vec<_> = (0..n)
-        .map(|i| (DVec3::Y * radius * (1.0 + 2.0 * f64::from(i)), DVec3::ZERO))
+        .map(|i| {
+            top += 2.0 * radius - f64::from(n - i) * weight / 2000.0;
+            (DVec3::Y * top, DVec3::ZERO)
+        })
         .collect();
     let scene = scene(&file, &particles);
-    let weight = mass(radius, 2500.0) * G;
     let step = scene.time.contact_duration.unwrap() / 40.0;
-    let all = frames(&stepped(scene, step, 4000), 5);
+    let all = frames(&stepped(scene, step, 2000), 3);
     let heights = |frame: &Frame| -> Vec<f64> { vectors(frame, "position").iter().map(|p| p.y).collect() };
-    let (then, now) = (heights(&all[4]), heights(&all[5]));
+    let (then, now) = (heights(&all[2]), heights(&all[3]));
     let mut below = -radius;
     for (i, &height) in now.iter().enumerate() {
         let overlap = 2.0 * radius - (height - below);
@@ -322,17 +327,20 @@ fn a_grain_holds_on_a_slope_below_the_angle_of_friction_and_leaves_one_above() {
             let file = floor(0.2, [G * sin, -G * cos, 0.0], grains);
             let scene = scene(&file, &[(DVec3::new(-0.1, radius * 0.999, 0.0), DVec3::ZERO)]);
             let step = scene.time.contact_duration.unwrap() / 40.0;
-            let steps = (0.05 / step).ceil() as u32;
+            let steps = (0.1 / step).ceil() as u32;
             let all = frames(&stepped(scene, step, steps), 4);
             let at = |frame: usize| vectors(&all[frame], "position")[0].x;
             let crept = at(4) - at(3);
             println!("{angle}°: {crept:.1e} m in the last quarter");
             if holds {
-                assert!(crept.abs() < 1e-6 * radius, "{angle}°: crept by {crept:.1e} m");
+                assert!(crept.abs() < 3e-6 * radius, "{angle}°: crept by {crept:.1e} m");
             } else {
-                // From rest by g (sin θ − μ cos θ): a quarter of a second would be 5.5 cm.
-                let fell = 0.5 * G * (sin - 0.5 * cos) * (0.2f64.powi(2) - 0.15f64.powi(2));
-                assert!((crept / fell - 1.0).abs() < 0.05, "slid by {crept} m for {fell} m");
+                // It is faster by g (sin θ − μ cos θ) times a quarter of the time.
+                let time = step * f64::from(steps);
+                let found = (crept - (at(3) - at(2))) / (time * time);
+                let expected = G * (sin - 0.5 * cos);
+                println!("acceleration {:.1e}", found / expected - 1.0);
+                assert!((found / expected - 1.0).abs() < 5e-3, "{found} m/s² for {expected}");
             }
         }
     }
@@ -340,8 +348,10 @@ fn a_grain_holds_on_a_slope_below_the_angle_of_friction_and_leaves_one_above() {
 
 /// A few discs or balls that pour onto a floor.
 fn pour(dimensions: usize, more: &[(&str, Value)]) -> Value {
+    // Grains sink by a thousandth of their size under their own weight: a disc is one metre thick.
+    let spring = if dimensions == 2 { 7.5e5 } else { 2e4 };
     let mut grains = json!({
-        "radius": 0.02, "law": "linear", "spring": 3000, "restitution": 0.4, "friction": 0.5, "rolling_friction": 0.3
+        "radius": 0.02, "law": "linear", "spring": spring, "restitution": 0.4, "friction": 0.5, "rolling_friction": 0.3
     });
     for (key, value) in more {
         grains[*key] = value.clone();
@@ -408,7 +418,7 @@ fn a_heap_stands_still() {
     println!("fastest: {speed:.1e} √(g d)");
     assert!(speed < 1e-4, "{speed:.1e}");
     let highest = vectors(&last, "position").iter().fold(0.0, |y: f64, p| y.max(p.y));
-    assert!(highest > 4.0 * scene.radius(), "it is no layer: {highest}");
+    assert!(highest > 3.0 * scene.radius(), "it has no third layer: {highest}");
 }
 
 #[test]
@@ -423,13 +433,10 @@ fn more_contacts_than_there_is_room_for_are_told() {
             (0.02 * DVec3::new(angle.sin(), angle.cos(), (1.7 * angle).sin()), DVec3::ZERO)
         })
         .collect();
-    let mut simulation = common::simulate(&scene(&file, &crowd), &Wanted::default());
-    let error = loop {
-        let made = simulation.next_frame().and_then(|_| simulation.finish_frame());
-        if let Err(error) = made {
-            break error.to_string();
-        }
-    };
+    let scene = stepped(scene(&file, &crowd), 1e-4, 2);
+    let mut simulation = common::simulate(&scene, &Wanted::default());
+    let mut frame = || simulation.next_frame().and_then(|_| simulation.finish_frame());
+    let error = frame().and_then(|_| frame()).expect_err("too many contacts").to_string();
     assert!(error.contains("touches more") && error.contains("grains.spring"), "{error}");
 }
 
@@ -497,11 +504,12 @@ fn what_no_scene_asks_for_costs_nothing() {
     let remembers = |scene: &Scene| {
         let plan = Plan::new(scene, &Limits::PROMISED, &Wanted::default()).expect("a plan");
         let buffers = plan.buffers.iter().map(|buffer| buffer.name.as_str());
-        let found: Vec<_> = buffers.filter(|name| name.contains("contact_") || name.contains("angular")).collect();
+        let own = ["contact_history", "contact_acceleration", "angular_velocity", "half_step"];
+        let found: Vec<_> = buffers.filter(|name| own.iter().any(|own| name.ends_with(own))).collect();
         (found.len(), plan.most_storage_buffers().1)
     };
     assert_eq!(remembers(&common::scene(3, &[])).0, 0);
     let (own, bound) = remembers(&parse(&pour(3, &[])).unwrap());
-    assert_eq!(own, 5, "two of the history, two of angular velocities, and the accelerations");
+    assert_eq!(own, 7, "two of each, and the accelerations");
     assert!(bound <= 8, "a pass binds {bound} storage buffers");
 }

@@ -186,7 +186,7 @@ fn declare(modules: &mut BTreeMap<String, String>, buffer: &str, field: &Field) 
         Kind::Pair => ("", "vec2f"),
         Kind::Vector => ("#import common/vector\n", "Packed"),
         Kind::Matrix => ("#import physics/fluid/matrix\n", "Matrix"),
-        Kind::Motion => ("#import physics/dem/motion\n", "Motion"),
+        Kind::HalfStep => ("#import physics/dem/motion\n", "HalfStep"),
         Kind::Contacts { .. } => ("", "vec4f"),
     };
     for (path, access) in [

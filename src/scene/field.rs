@@ -42,8 +42,8 @@ pub enum Kind {
     /// As many numbers as there are dimensions, and one beside them.
     Vector,
     Matrix,
-    /// A vector and something angular, each with a number beside it.
-    Motion,
+    /// `HalfStep` of `shaders/physics/dem/motion.wgsl`.
+    HalfStep,
     /// What contacts remember: slots for as many contacts as a grain may have.
     Contacts {
         /// Whether they remember how far grains have rolled too.
@@ -79,7 +79,7 @@ impl Kind {
             (Self::Pair, _) => 8,
             (Self::Vector, _) | (Self::Matrix, Dimensions::Two) => 16,
             (Self::Matrix, Dimensions::Three) => 48,
-            (Self::Motion, _) => 32,
+            (Self::HalfStep, _) => 48,
             (Self::Contacts { rolls }, _) => 16 * u64::from(contact_slots(dimensions) * contact_words(dimensions, rolls)),
         }
     }
@@ -231,14 +231,15 @@ pub const FIELDS: &[Field] = &[
     },
     Field {
         name: "half_step",
-        kind: Kind::Motion,
-        about: "velocity and angular velocity half a step ago; beside them, how long the last step was",
+        kind: Kind::HalfStep,
+        about: "velocity and angular velocity half a step ago, and what rounding took of the way",
         travels: Travels::Stepped,
         saved: true,
         has: |scene| scene.friction().is_some(),
         start: Some(|new| {
-            let motion = |v: &Vec3| [v.x, v.y, v.z, 0.0, 0.0, 0.0, 0.0, 0.0];
-            bytemuck::cast_slice(&new.free.velocity.iter().map(motion).collect::<Vec<[f32; 8]>>()).to_vec()
+            let half_step = |v: &Vec3| [[v.x, v.y, v.z, 0.0], [0.0; 4], [0.0; 4]];
+            let all: Vec<[[f32; 4]; 3]> = new.free.velocity.iter().map(half_step).collect();
+            bytemuck::cast_slice(&all).to_vec()
         }),
         ..ROW
     },

@@ -2,7 +2,8 @@
 //
 // v(n+½) = v(n−½) + a(n) dt, x(n+1) = x(n) + v(n+½) dt. What dashpots, and everybody else, see as the velocity at x(n+1) is
 // v(n+½) + a(n) dt/2, of second order too. Beside v(n−½) stands the length of the step before; a grain that has just come
-// had none, and gets half a kick.
+// had none, and gets half a kick. What rounding takes from a way is kept for the next one (Kahan 1965), or grains at rest
+// would seem to move at a speed that is too low to move them.
 #flag moves
 #import common/thread
 #import common/parameters
@@ -35,14 +36,17 @@ fn leap_grains(thread: Thread) {
     let x = unpack(position[i]);
     let a = unpack(contact_acceleration[i].linear);
     let dt = number_of(contact_acceleration[i].linear);
-    let before = half_step[i].linear;
+    let before = half_step[i].velocity;
     var v = unpack(before) + 0.5 * (number_of(before) + dt) * a;
-    var moved = x + dt * v;
+    let way = dt * v + unpack(half_step[i].rest);
+    var moved = x + way;
+    let rest = way - (moved - x);
     watch(i, x, &moved, &v);
     if number_of(contact_acceleration[i].angular) > f32(CONTACT_SLOTS) {
         catch_crowded(i, x, v);
     }
-    next_half_step[i].linear = pack_with(v, dt);
+    next_half_step[i].velocity = pack_with(v, dt);
+    next_half_step[i].rest = pack(rest);
     leave(i, moved, pack(v + 0.5 * dt * a));
 #if adaptive_step
     note_extremes(a, length(v), 0.0);

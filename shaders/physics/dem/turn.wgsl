@@ -19,7 +19,7 @@ fn turn_grains(thread: Thread) {
     let a = unpack_rotation(contact_acceleration[i].angular);
     let dt = number_of(contact_acceleration[i].linear);
     let before = half_step[i];
-    let w = unpack_rotation(before.angular) + 0.5 * (number_of(before.linear) + dt) * a;
-    next_half_step[i].angular = pack_rotation(w, 0.0);
+    let w = unpack_rotation(before.rotation) + 0.5 * (number_of(before.velocity) + dt) * a;
+    next_half_step[i].rotation = pack_rotation(w, 0.0);
     next_angular_velocity[i] = pack_rotation(w + 0.5 * dt * a, number_of(angular_velocity[i]));
 }
