@@ -408,6 +408,25 @@ fn a_run_that_goes_on_has_the_same_bytes() {
 }
 
 #[test]
+fn a_run_goes_on_with_friction_that_it_did_not_have() {
+    let smooth = pour(2, &[]);
+    let mut slippery = smooth.clone();
+    slippery["grains"] = json!({ "radius": 0.02, "spring": 7.5e5, "restitution": 0.4 });
+    let mut first = common::simulate(&parse(&slippery).unwrap(), &Wanted::default());
+    common::frames(&mut first, 4);
+    let mut second = common::simulate(&parse(&smooth).unwrap(), &Wanted::default());
+    second.restore(&first.save_state().unwrap()).unwrap();
+    common::frames(&mut second, 8);
+    let state = second.save_state().unwrap();
+    // Each grain has its key, and contacts remember it.
+    let spins: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(state.buffer("angular_velocity").unwrap());
+    for (id, spin) in state.ids().iter().zip(&spins) {
+        assert_eq!(spin[3], (id + 1) as f32);
+    }
+    assert!(spins.iter().any(|spin| spin[2] != 0.0));
+}
+
+#[test]
 fn a_heap_stands_still() {
     let mut file = pour(2, &[]);
     file["time"] = json!({ "duration": 3, "fps": 1 });

@@ -13,9 +13,9 @@ use crate::gpu::readback;
 use crate::neighbors::layout::ListState;
 use crate::neighbors::{Grid, lists};
 use crate::physics::layout::{Clock, Overflow, Packed, StepControl, packed};
-use crate::scene::field::{Field, Kind, contact_slots, contact_words};
+use crate::scene::field::{Field, Kind, Newcomers, contact_slots, contact_words};
 use crate::scene::model::Axis;
-use crate::scene::{Action, Dimensions, Scene};
+use crate::scene::{Action, Dimensions, Particles, Scene};
 
 /// What the step after a frame depends on.
 #[derive(Debug, Clone, PartialEq)]
@@ -121,6 +121,21 @@ pub fn state_bytes(scene: &Scene, particles: u32) -> u64 {
 /// Fields that a state holds.
 fn saved(scene: &Scene) -> impl Iterator<Item = &Field> {
     scene.fields().filter(|field| field.saved)
+}
+
+/// What grains begin with of a field that the state of a scene without it lacks.
+fn begun(field: &Field, state: &State) -> Option<Vec<u8>> {
+    let free = Particles {
+        position: state.vectors("position")?,
+        velocity: state.vectors("velocity")?,
+        ..Particles::default()
+    };
+    let newcomers = Newcomers {
+        free: &free,
+        boundary: &Particles::default(),
+        ids: &state.ids(),
+    };
+    field.start.map(|start| start(&newcomers))
 }
 
 /// Vectors as `common/vector.wgsl` packs them.
@@ -239,7 +254,8 @@ impl Simulation {
         // The search puts every particle where it stood, since it keeps the order inside a voxel.
         for field in self.scene.fields() {
             let stored = self.left_by_step(field, |name| Ok(state.buffer(name).map(<[u8]>::to_vec)))?;
-            self.put(&field.before_search(), stored.as_deref())?;
+            let begun = || self.scene.friction().and_then(|_| begun(field, state));
+            self.put(&field.before_search(), stored.or_else(begun).as_deref())?;
         }
         if let (true, Some(why)) = (lists::can_be_left_out(&self.scene), &state.lists_left_out) {
             self.leave_lists_out(why.clone())?;
