@@ -8,8 +8,8 @@ use std::path::Path;
 use glam::DVec3;
 use serde_json::{Value, json};
 use sliceflow::error::Error;
-use sliceflow::output::columns_named;
 use sliceflow::gpu::device::Limits;
+use sliceflow::output::columns_named;
 use sliceflow::plan::{Plan, Wanted};
 use sliceflow::scene::{Particles, Scene, load};
 use sliceflow::simulation::{Frame, State, Values};
@@ -107,7 +107,9 @@ fn linear_collisions_give_back_what_was_asked_for() {
                 (center + half, -DVec3::X * speed),
             ]);
         }
-        let last = frames(&stepped(scene(&file, &particles), step, 80), 1).pop().unwrap();
+        let last = frames(&stepped(scene(&file, &particles), step, 80), 1)
+            .pop()
+            .unwrap();
         let after = vectors(&last, "velocity");
         let worst = after
             .chunks(2)
@@ -262,7 +264,10 @@ fn a_stack_of_ten_carries_its_weight_and_does_not_creep() {
         let overlap = 2.0 * radius - (height - below);
         let expected = f64::from(n - i as i32) * weight / 2000.0;
         println!("{i}: {:.1e}", overlap / expected - 1.0);
-        assert!((overlap / expected - 1.0).abs() < 1e-3, "contact {i}: {overlap} for {expected}");
+        assert!(
+            (overlap / expected - 1.0).abs() < 1e-3,
+            "contact {i}: {overlap} for {expected}"
+        );
         assert!((height - then[i]).abs() < 1e-4 * expected, "grain {i} creeps");
         below = height;
     }
@@ -272,9 +277,18 @@ fn a_stack_of_ten_carries_its_weight_and_does_not_creep() {
 fn an_oblique_collision_keeps_momentum_and_angular_momentum() {
     let radius = 0.01;
     for (dimensions, law) in [
-        (3, json!({ "radius": radius, "law": "linear", "contact_time": 1e-3, "restitution": 0.6, "rolling_friction": 0.2 })),
-        (3, json!({ "radius": radius, "law": "hertz", "young_modulus": 1e7, "restitution": 0.6 })),
-        (2, json!({ "radius": radius, "law": "linear", "contact_time": 1e-3, "restitution": 0.6, "rolling_friction": 0.2 })),
+        (
+            3,
+            json!({ "radius": radius, "law": "linear", "contact_time": 1e-3, "restitution": 0.6, "rolling_friction": 0.2 }),
+        ),
+        (
+            3,
+            json!({ "radius": radius, "law": "hertz", "young_modulus": 1e7, "restitution": 0.6 }),
+        ),
+        (
+            2,
+            json!({ "radius": radius, "law": "linear", "contact_time": 1e-3, "restitution": 0.6, "rolling_friction": 0.2 }),
+        ),
     ] {
         let mut file = empty(0.1, law);
         let mut off = DVec3::new(0.006, 0.011, 0.0165);
@@ -340,7 +354,10 @@ fn a_grain_holds_on_a_slope_below_the_angle_of_friction_and_leaves_one_above() {
                 let found = (crept - (at(3) - at(2))) / (time * time);
                 let expected = G * (sin - 0.5 * cos);
                 println!("acceleration {:.1e}", found / expected - 1.0);
-                assert!((found / expected - 1.0).abs() < 5e-3, "{found} m/s² for {expected}");
+                assert!(
+                    (found / expected - 1.0).abs() < 5e-3,
+                    "{found} m/s² for {expected}"
+                );
             }
         }
     }
@@ -377,8 +394,16 @@ fn a_run_that_goes_on_has_the_same_bytes() {
     for (dimensions, more, grid) in [
         (2, vec![], json!({})),
         (3, vec![], json!({})),
-        (3, vec![("rolling_friction", json!(0))], json!({ "storage": "pool", "slots": 8 })),
-        (3, vec![("rolling_resistance", json!("constant_torque"))], json!({ "skin": 0 })),
+        (
+            3,
+            vec![("rolling_friction", json!(0))],
+            json!({ "storage": "pool", "slots": 8 }),
+        ),
+        (
+            3,
+            vec![("rolling_resistance", json!("constant_torque"))],
+            json!({ "skin": 0 }),
+        ),
     ] {
         let mut file = pour(dimensions, &more);
         file["neighbors"] = grid;
@@ -393,14 +418,25 @@ fn a_run_that_goes_on_has_the_same_bytes() {
         let mut first = common::simulate(&scene, &wanted);
         common::frames(&mut first, 4);
         let state: State = first.save_state().unwrap();
-        assert!(state.buffer("contact_history").is_some_and(|bytes| bytes.iter().any(|&b| b != 0)));
+        assert!(
+            state
+                .buffer("contact_history")
+                .is_some_and(|bytes| bytes.iter().any(|&b| b != 0))
+        );
         let mut second = common::simulate(&scene, &wanted);
         second.restore(&state).unwrap();
-        assert!(second.save_state().unwrap() == state, "restoring changes the state");
+        assert!(
+            second.save_state().unwrap() == state,
+            "restoring changes the state"
+        );
         let rest = common::frames(&mut second, 8);
         for (one, two) in rest.iter().zip(&whole[5..]) {
             assert_eq!(one.index, two.index);
-            assert_eq!(one.columns, two.columns, "{dimensions}D, {more:?}, frame {}", one.index);
+            assert_eq!(
+                one.columns, two.columns,
+                "{dimensions}D, {more:?}, frame {}",
+                one.index
+            );
             assert_eq!(one.statistics, two.statistics);
         }
         assert!(second.save_state().unwrap() == through.save_state().unwrap());
@@ -436,7 +472,9 @@ fn a_heap_stands_still() {
     let speed = last.statistics.unwrap().max_speed / still;
     println!("fastest: {speed:.1e} √(g d)");
     assert!(speed < 1e-4, "{speed:.1e}");
-    let highest = vectors(&last, "position").iter().fold(0.0, |y: f64, p| y.max(p.y));
+    let highest = vectors(&last, "position")
+        .iter()
+        .fold(0.0, |y: f64, p| y.max(p.y));
     assert!(highest > 3.0 * scene.radius(), "it has no third layer: {highest}");
 }
 
@@ -449,14 +487,23 @@ fn more_contacts_than_there_is_room_for_are_told() {
     let crowd: Vec<_> = (0..30)
         .map(|i| {
             let angle = f64::from(i);
-            (0.02 * DVec3::new(angle.sin(), angle.cos(), (1.7 * angle).sin()), DVec3::ZERO)
+            (
+                0.02 * DVec3::new(angle.sin(), angle.cos(), (1.7 * angle).sin()),
+                DVec3::ZERO,
+            )
         })
         .collect();
     let scene = stepped(scene(&file, &crowd), 1e-4, 2);
     let mut simulation = common::simulate(&scene, &Wanted::default());
     let mut frame = || simulation.next_frame().and_then(|_| simulation.finish_frame());
-    let error = frame().and_then(|_| frame()).expect_err("too many contacts").to_string();
-    assert!(error.contains("touches more") && error.contains("grains.spring"), "{error}");
+    let error = frame()
+        .and_then(|_| frame())
+        .expect_err("too many contacts")
+        .to_string();
+    assert!(
+        error.contains("touches more") && error.contains("grains.spring"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -469,16 +516,31 @@ fn what_a_law_does_not_know_or_lacks_is_told() {
         parse(&file).expect_err("a problem").to_string()
     };
     for (grains, expected) in [
-        (json!({ "radius": 0.1, "spring": 1, "restitution": 0.5, "friction": 0.5 }), "grains.friction"),
+        (
+            json!({ "radius": 0.1, "spring": 1, "restitution": 0.5, "friction": 0.5 }),
+            "grains.friction",
+        ),
         (json!({ "radius": 0.1, "restitution": 0.5 }), "grains.spring"),
-        (json!({ "radius": 0.1, "law": "linear", "restitution": 0.5 }), "contact_time"),
-        (json!({ "radius": 0.1, "law": "linear", "spring": 1 }), "grains.restitution"),
+        (
+            json!({ "radius": 0.1, "law": "linear", "restitution": 0.5 }),
+            "contact_time",
+        ),
+        (
+            json!({ "radius": 0.1, "law": "linear", "spring": 1 }),
+            "grains.restitution",
+        ),
         (
             json!({ "radius": 0.1, "law": "linear", "spring": 1, "contact_time": 1, "restitution": 0.5 }),
             "remove one of them",
         ),
-        (json!({ "radius": 0.1, "law": "linear", "spring": 1, "restitution": 0.5, "shear": 1 }), "grains.shear"),
-        (json!({ "radius": 0.1, "law": "hertz", "restitution": 0.5 }), "grains.young_modulus"),
+        (
+            json!({ "radius": 0.1, "law": "linear", "spring": 1, "restitution": 0.5, "shear": 1 }),
+            "grains.shear",
+        ),
+        (
+            json!({ "radius": 0.1, "law": "hertz", "restitution": 0.5 }),
+            "grains.young_modulus",
+        ),
         (
             json!({ "radius": 0.1, "law": "hertz", "young_modulus": 1e7, "restitution": 0.5, "spring": 1 }),
             "grains.spring",
@@ -523,8 +585,15 @@ fn what_no_scene_asks_for_costs_nothing() {
     let remembers = |scene: &Scene| {
         let plan = Plan::new(scene, &Limits::PROMISED, &Wanted::default()).expect("a plan");
         let buffers = plan.buffers.iter().map(|buffer| buffer.name.as_str());
-        let own = ["contact_history", "contact_acceleration", "angular_velocity", "half_step"];
-        let found: Vec<_> = buffers.filter(|name| own.iter().any(|own| name.ends_with(own))).collect();
+        let own = [
+            "contact_history",
+            "contact_acceleration",
+            "angular_velocity",
+            "half_step",
+        ];
+        let found: Vec<_> = buffers
+            .filter(|name| own.iter().any(|own| name.ends_with(own)))
+            .collect();
         (found.len(), plan.most_storage_buffers().1)
     };
     assert_eq!(remembers(&common::scene(3, &[])).0, 0);

@@ -195,12 +195,21 @@ fn friction_plans() -> Vec<Plan> {
                 "grains.rolling_resistance=constant_torque",
                 "neighbors.storage=pool",
             ],
-            &["grains.law=hertz", "grains.spring=null", "grains.young_modulus=1e6"],
+            &[
+                "grains.law=hertz",
+                "grains.spring=null",
+                "grains.young_modulus=1e6",
+            ],
         ] {
             if dimensions == 2 && more[0] == "grains.law=hertz" {
                 continue;
             }
-            let given = ["grains.law=linear", "domain.walls=contact", "domain.sides={}", &*sensors];
+            let given = [
+                "grains.law=linear",
+                "domain.walls=contact",
+                "domain.sides={}",
+                &*sensors,
+            ];
             let scene = common::scene(dimensions, &[&given[..], more].concat());
             for sensors in [false, true] {
                 let wanted = Wanted { sensors, ..wanted() };

@@ -247,6 +247,7 @@ fn parameters(_: &Scene, matter: &Matter) -> Vec<Written> {
             inverse_inertia: (1.0 / friction.inertia) as f32,
             inertia: friction.inertia as f32,
             global_damping: contact.global_damping as f32,
+            farthest: FAR,
             ..Default::default()
         };
         return vec![Written::new("contact", &[contact])];

@@ -199,7 +199,9 @@ shared_struct! {
         pub inertia: f32,
         /// 1/s.
         pub global_damping: f32,
-        pub _pad: [u32; 2],
+        /// More than any coordinate, metres.
+        pub farthest: f32,
+        pub _pad: u32,
     }
 }
 

@@ -80,7 +80,9 @@ impl Kind {
             (Self::Vector, _) | (Self::Matrix, Dimensions::Two) => 16,
             (Self::Matrix, Dimensions::Three) => 48,
             (Self::HalfStep, _) => 48,
-            (Self::Contacts { rolls }, _) => 16 * u64::from(contact_slots(dimensions) * contact_words(dimensions, rolls)),
+            (Self::Contacts { rolls }, _) => {
+                16 * u64::from(contact_slots(dimensions) * contact_words(dimensions, rolls))
+            }
         }
     }
 }
@@ -226,7 +228,9 @@ pub const FIELDS: &[Field] = &[
         travels: Travels::Stepped,
         saved: true,
         has: |scene| scene.friction().is_some(),
-        start: Some(|new| bytemuck::cast_slice(&new.ids.iter().map(|&id| contact_key(id)).collect::<Vec<_>>()).to_vec()),
+        start: Some(|new| {
+            bytemuck::cast_slice(&new.ids.iter().map(|&id| contact_key(id)).collect::<Vec<_>>()).to_vec()
+        }),
         ..ROW
     },
     Field {
@@ -329,7 +333,9 @@ pub const MOST_KEYS: u64 = (1 << 24) - 1;
 
 /// Whether contacts remember how far grains have rolled.
 fn rolls_by_spring(scene: &Scene) -> bool {
-    scene.friction().is_some_and(|friction| friction.rolling == Some(RollingResistance::Spring))
+    scene
+        .friction()
+        .is_some_and(|friction| friction.rolling == Some(RollingResistance::Spring))
 }
 
 /// The scene's fluid at the start and after each change, unless it is incompressible.

@@ -192,9 +192,15 @@ impl Given {
         };
         let deepest = (1.25 * mass * self.speed * self.speed / stiffness).powf(0.4);
         // Along the contact, surfaces swing faster by this.
-        let faster = (shear_stiffness / (1.5 * stiffness) * (1.0 + 1.0 / shape)).sqrt().max(1.0);
+        let faster = (shear_stiffness / (1.5 * stiffness) * (1.0 + 1.0 / shape))
+            .sqrt()
+            .max(1.0);
         let duration = HERTZ_DURATION * deepest / self.speed / faster;
-        (pairing, duration, pairing.damping * deepest.powf(0.25) / mass * faster)
+        (
+            pairing,
+            duration,
+            pairing.damping * deepest.powf(0.25) / mass * faster,
+        )
     }
 }
 

@@ -1,9 +1,9 @@
 //! Keys of grains that their contact law does not know, or lacks.
 
+use super::Dimensions;
 use super::field::MOST_KEYS;
 use super::frame::{Frame, Report};
 use super::model::{ContactLaw, Dashpot, Grains, SceneFile, Wall};
-use super::Dimensions;
 
 /// A key, and whether a scene gives it.
 type Key = (&'static str, fn(&Grains) -> bool);
@@ -36,7 +36,12 @@ const SPRING: &[Key] = &[("spring", |grains| grains.spring.is_some())];
 pub fn check(file: &SceneFile, frame: &Frame, report: &mut Report) {
     let Some(grains) = &file.grains else { return };
     let mut has_no = |keys: &[&[Key]], law: &str, help: &str| {
-        for (key, _) in keys.iter().copied().flatten().filter(|(_, is_given)| is_given(grains)) {
+        for (key, _) in keys
+            .iter()
+            .copied()
+            .flatten()
+            .filter(|(_, is_given)| is_given(grains))
+        {
             report.problem(
                 format!("grains.{key}"),
                 format!("the law `{law}` does not know it"),
@@ -46,7 +51,8 @@ pub fn check(file: &SceneFile, frame: &Frame, report: &mut Report) {
     };
     match grains.law {
         ContactLaw::SpringDashpot => {
-            let help = "leave it out, or set grains.law to `linear` or `hertz`, with which grains rotate and rub";
+            let help =
+                "leave it out, or set grains.law to `linear` or `hertz`, with which grains rotate and rub";
             has_no(&[OF_FRICTION, OF_LINEAR, OF_HERTZ], "spring_dashpot", help);
             if grains.spring.is_none() {
                 report.problem("grains.spring", "is missing", "add \"spring\", in N/m");
@@ -54,7 +60,8 @@ pub fn check(file: &SceneFile, frame: &Frame, report: &mut Report) {
             return;
         }
         ContactLaw::Linear => {
-            let help = "leave it out: `linear` is given by `spring` or `contact_time`, `restitution` and `friction`";
+            let help =
+                "leave it out: `linear` is given by `spring` or `contact_time`, `restitution` and `friction`";
             has_no(&[OF_SPRING_DASHPOT, OF_HERTZ], "linear", help);
             match (grains.spring, grains.contact_time) {
                 (None, None) => report.problem(
@@ -104,7 +111,11 @@ pub fn check(file: &SceneFile, frame: &Frame, report: &mut Report) {
         );
     }
     let axes = frame.dimensions.count();
-    if frame.sides[..axes].iter().flatten().any(|&side| side == Wall::Clamp) {
+    if frame.sides[..axes]
+        .iter()
+        .flatten()
+        .any(|&side| side == Wall::Clamp)
+    {
         report.problem(
             "domain.walls",
             "walls that clamp know no friction",

@@ -332,8 +332,16 @@ impl<'a> Unroll<'a> {
             );
             return;
         }
-        let rotate = self.file.grains.as_ref().is_some_and(|grains| grains.law != ContactLaw::SpringDashpot);
-        let usual = if rotate { Arrangement::Random } else { Arrangement::Lattice };
+        let rotate = self
+            .file
+            .grains
+            .as_ref()
+            .is_some_and(|grains| grains.law != ContactLaw::SpringDashpot);
+        let usual = if rotate {
+            Arrangement::Random
+        } else {
+            Arrangement::Lattice
+        };
         let mut rng = ChaCha8Rng::seed_from_u64(self.file.seed);
         rng.set_stream(index as u64);
         for flow in &flows {
@@ -344,8 +352,15 @@ impl<'a> Unroll<'a> {
                     Arrangement::Random => {
                         let reach = emitter.radius - grain;
                         let dimensions = self.frame.dimensions;
-                        let layer =
-                            emission::loose_layer(center, axis, reach, spacing, 2.0 * grain, dimensions, &mut rng);
+                        let layer = emission::loose_layer(
+                            center,
+                            axis,
+                            reach,
+                            spacing,
+                            2.0 * grain,
+                            dimensions,
+                            &mut rng,
+                        );
                         self.batch(&layer, velocity, material)
                     }
                 };

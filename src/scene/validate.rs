@@ -14,9 +14,9 @@ use super::filling;
 use super::fluid::{Fluid, Speeds};
 use super::fluid_keys;
 use super::frame::{Frame, Report};
+use super::free_surface;
 use super::friction;
 use super::grain_keys;
-use super::free_surface;
 use super::model::{
     Addressing, DensityFrom, FluidSolver, Integrator, Render, SceneFile, SlicingAxis, StartPressure, Storage,
     Wall,
@@ -127,7 +127,10 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
         &schedule,
         &mut report,
     );
-    if matter.grains().is_some_and(|grains| grains.contact.friction.is_some()) {
+    if matter
+        .grains()
+        .is_some_and(|grains| grains.contact.friction.is_some())
+    {
         grain_keys::check_count(capacity, &mut report);
     }
     let given = file.fluid.as_ref().and_then(|fluid| fluid.shifting);

@@ -31,9 +31,7 @@ use crate::gpu::{BufferPlan, Buffers, Gpu};
 use crate::neighbors::{Grid, boxes, lists};
 use crate::physics::Written;
 use crate::physics::collider::offset_at;
-use crate::physics::layout::{
-    Clock, Guard, Occupancy, Overflow, Parameters, StepControl, Sums,
-};
+use crate::physics::layout::{Clock, Guard, Occupancy, Overflow, Parameters, StepControl, Sums};
 use crate::plan::Plan;
 use crate::render::Renderer;
 use crate::scene::{Action, Matter, Scene};

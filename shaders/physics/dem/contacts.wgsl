@@ -24,10 +24,11 @@
 fn with_grain(sum: ContactSum, j: u32, normal: Vector, distance: f32, approach: Vector) -> ContactSum {
     let overlap = contact.diameter - distance;
 #if measuring
-    let touch = Touch(0.0, normal, overlap, 0.5 * distance, approach, Rotation());
+    let touch = Touch(0.0, normal, overlap, 0.5 * distance, approach, Rotation(), Vector(0.0));
 #else
     let other = angular_velocity[j];
-    let touch = Touch(number_of(other), normal, overlap, 0.5 * distance, approach, unpack_rotation(other));
+    let rest = rest_of(position[j]);
+    let touch = Touch(number_of(other), normal, overlap, 0.5 * distance, approach, unpack_rotation(other), rest);
 #end
     return with_touch(sum, touch, contact.grains);
 }
@@ -39,6 +40,7 @@ fn sum_contacts(i: u32) -> ContactSum {
 #if !measuring
     sum.grain = i;
     sum.rotation = unpack_rotation(angular_velocity[i]);
+    sum.rest = rest_of(position[i]);
 #end
 #end
     let x = unpack(position[i]);

@@ -6,28 +6,16 @@
 // act where the surfaces meet, halfway between two centers, so that angular momentum stays.
 #import common/vector
 #import physics/dem/rotation
-#import physics/dem/pairing
+#import physics/dem/frictional_contact
 #import <contact_law>
 #if !measuring
 #import physics/time_step
 #import physics/dem/history
+#import physics/dem/rest
 #if rolling
 #import <rolling_law>
 #end
 #end
-
-struct FrictionalContact {
-    grains: Pairing,
-    walls: Pairing,
-    diameter: f32, // m
-    reach: f32, // distance within which centers may come to touch during half a step, m
-    inverse_mass: f32, // 1/kg
-    inverse_inertia: f32, // 1/(kg·m²)
-    inertia: f32, // kg·m²
-    @size(12) global_damping: f32, // 1/s
-}
-
-var<uniform> contact: FrictionalContact;
 
 // What the contacts of one grain add up to.
 struct ContactSum {
@@ -40,6 +28,7 @@ struct ContactSum {
     torque: Rotation, // N·m
     grain: u32,
     rotation: Rotation, // of that grain, rad/s
+    rest: Vector, // of its position, m
     slots: u32, // contacts that are to be remembered
     cursor: u32, // of the search among those that are
 #end
@@ -53,6 +42,7 @@ struct Touch {
     arm: f32, // from the grain's center to the contact, m
     approach: Vector, // velocity of the other less that of the grain, m/s
     rotation: Rotation, // of the other, rad/s; none for walls
+    rest: Vector, // of the other's position, m; none for walls
 }
 
 #if measuring
@@ -73,16 +63,17 @@ fn with_touch(before: ContactSum, touch: Touch, pairing: Pairing) -> ContactSum 
     var sum = before;
     let dt = time_step();
     let normal = touch.normal;
+    let deep = touch.overlap + dot(sum.rest - touch.rest, normal);
     let normal_speed = dot(touch.approach, normal);
     // A force holds from half a step before to half a step later. A dashpot begins and ends with a jump, so what counts is the
     // share of that time in which grains overlap; then an error of the step's length is an error of its square.
     let way = max(abs(normal_speed) * dt, SMALLEST_WAY);
-    let share = clamp(0.5 + touch.overlap / way, 0.0, 1.0);
+    let share = clamp(0.5 + deep / way, 0.0, 1.0);
     if share <= 0.0 {
         return sum;
     }
-    let overlap = max(touch.overlap, 0.0);
-    let response = respond(pairing, overlap, max(overlap, 0.5 * touch.overlap + 0.25 * way));
+    let overlap = max(deep, 0.0);
+    let response = respond(pairing, overlap, max(overlap, 0.5 * deep + 0.25 * way));
     let push = response.force - share * response.damping * normal_speed;
     let pressing = max(push, 0.0);
 
@@ -114,7 +105,7 @@ fn with_touch(before: ContactSum, touch: Touch, pairing: Pairing) -> ContactSum 
     sum.torque += resist_rolling(pairing, response, pressing, rate, &roll, dt);
     memory.roll = roll;
 #end
-    if touch.overlap > 0.0 {
+    if deep > 0.0 {
 #if moves
         if sum.slots < CONTACT_SLOTS {
             remember(sum.grain, sum.slots, touch.key, memory);

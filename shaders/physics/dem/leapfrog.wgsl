@@ -9,6 +9,8 @@
 #import common/parameters
 #import physics/guard
 #import physics/next
+#import physics/dem/rest
+#import physics/dem/frictional_contact
 #import fields/half_step
 #import fields/next_half_step/write
 #if adaptive_step
@@ -39,7 +41,8 @@ fn leap_grains(thread: Thread) {
     let before = half_step[i].velocity;
     var v = unpack(before) + 0.5 * (number_of(before) + dt) * a;
     let way = dt * v + unpack(half_step[i].rest);
-    var moved = x + way;
+    // No coordinate is farther, which compilers do not know: they would make `way` of `(x + way) - x`.
+    var moved = clamp(x + way, Vector(-contact.farthest), Vector(contact.farthest));
     let rest = way - (moved - x);
     watch(i, x, &moved, &v);
     if number_of(contact_acceleration[i].angular) > f32(CONTACT_SLOTS) {
@@ -48,6 +51,7 @@ fn leap_grains(thread: Thread) {
     next_half_step[i].velocity = pack_with(v, dt);
     next_half_step[i].rest = pack(rest);
     leave(i, moved, pack(v + 0.5 * dt * a));
+    next_position[i].w = number_of_rest(moved, rest);
 #if adaptive_step
     note_extremes(a, length(v), 0.0);
 #end

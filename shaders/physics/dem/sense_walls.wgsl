@@ -23,6 +23,7 @@ fn force_on(i: u32) -> Vector {
 #if rotation
     sum.grain = i;
     sum.rotation = unpack_rotation(angular_velocity[i]);
+    sum.rest = rest_of(position[i]);
 #end
     if sensed.target_body >= SIDE_TARGETS {
 #if contact_walls

@@ -22,7 +22,8 @@ fn side_key(outwards: Vector) -> f32 {
 
 fn with_side(sum: ContactSum, outwards: Vector, overlap: f32, v: Vector) -> ContactSum {
     let arm = 0.5 * contact.diameter - overlap;
-    return with_touch(sum, Touch(side_key(outwards), outwards, overlap, arm, -v, Rotation()), contact.walls);
+    let touch = Touch(side_key(outwards), outwards, overlap, arm, -v, Rotation(), Vector(0.0));
+    return with_touch(sum, touch, contact.walls);
 }
 #else
 // Without a branch: a contact of zero overlap and zero approach adds nothing, and six cheap sides cost less than the

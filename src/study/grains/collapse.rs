@@ -46,7 +46,9 @@ pub fn collapse(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
         bench.tell(&format!("grains: a column {aspect} times as high as wide"));
         let (scene, width) = column_of(aspect, scale.discs)?;
         let mut position = Vec::new();
-        run(bench, &scene, &["position"], |frame| position = vectors(frame, "position"))?;
+        run(bench, &scene, &["position"], |frame| {
+            position = vectors(frame, "position")
+        })?;
         let height = position.len() as f64 * std::f64::consts::PI * RADIUS * RADIUS / (FILLED * width);
         let aspect = height / width;
         let runout = (deposit_end(position.iter().map(|p| p.x).collect()) - width) / width;
@@ -60,7 +62,11 @@ pub fn collapse(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
         found.push((aspect, runout));
     }
     page.table("collapse", &table);
-    let line = |row: usize| found.iter().map(move |&(aspect, _)| (aspect, published(row, aspect)));
+    let line = |row: usize| {
+        found
+            .iter()
+            .map(move |&(aspect, _)| (aspect, published(row, aspect)))
+    };
     let chart = Plot::new(
         "Runout of columns of discs",
         "height over width at the start",
@@ -71,9 +77,11 @@ pub fn collapse(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
     .series("Lube 2005, measured", line(0))
     .series("Lajeunesse 2005, measured", line(1))
     .points("Sliceflow", found.iter().copied());
-    page.picture("grains_collapse.png", "Runout against the aspect ratio.", |path| {
-        chart.save(path)
-    })?;
+    page.picture(
+        "grains_collapse.png",
+        "Runout against the aspect ratio.",
+        |path| chart.save(path),
+    )?;
     page.paragraph(format!(
         "Friction 0.5, rolling friction 0.1. The height is that of so many discs if they filled {FILLED} of the column; the \
          deposit ends where the next disc is more than {GAP} diameters away."

@@ -29,7 +29,11 @@ pub fn restitution(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> 
         let mut all = 0.0f64;
         for restitution in RESTITUTIONS {
             let error = error_of(bench, restitution, steps)?;
-            table.row([Cell::count(steps.into()), Cell::number(restitution), Cell::number(error)]);
+            table.row([
+                Cell::count(steps.into()),
+                Cell::number(restitution),
+                Cell::number(error),
+            ]);
             all = all.max(error);
         }
         worst.push((f64::from(steps), all));
@@ -79,7 +83,9 @@ fn error_of(bench: &Bench, restitution: f64, steps: u32) -> Result<f64> {
     });
     let scene = placed(&file, particles(pairs), step, steps + steps / 2, 1)?;
     let mut after = Vec::new();
-    run(bench, &scene, &["velocity"], |frame| after = vectors(frame, "velocity"))?;
+    run(bench, &scene, &["velocity"], |frame| {
+        after = vectors(frame, "velocity")
+    })?;
     let found = after
         .chunks_exact(2)
         .map(|pair| (pair[1].x - pair[0].x) / (2.0 * SPEED));

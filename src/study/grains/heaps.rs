@@ -8,10 +8,10 @@ use crate::output::plot::Plot;
 use crate::scene::Scene;
 use crate::scene::model::View;
 use crate::study::accuracy::cases::columns::vectors;
+use crate::study::accuracy::run::run;
 use crate::study::bench::Bench;
 use crate::study::page::{Cell, Page, Table};
 use crate::study::scenes;
-use crate::study::accuracy::run::run;
 
 const RADIUS: f64 = 0.01;
 /// Over the greatest part of the slope; feet and tops are rounder.
@@ -54,9 +54,13 @@ pub fn heap(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
         means.push((friction, angles.iter().sum::<f64>() / angles.len() as f64));
     }
     page.table("heap", &table);
-    let chart = Plot::new("Angle of a heap of discs", "coefficient of friction", "angle, degrees")
-        .series("mean over seeds", means)
-        .from_lowest();
+    let chart = Plot::new(
+        "Angle of a heap of discs",
+        "coefficient of friction",
+        "angle, degrees",
+    )
+    .series("mean over seeds", means)
+    .from_lowest();
     page.picture(
         "grains_heap_angle.png",
         "Angle of the slopes against friction.",
@@ -64,9 +68,11 @@ pub fn heap(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
     )?;
     let scene = poured(scale.friction[scale.friction.len() - 1], 0, scale.discs)?;
     if let Some(picture) = bench.picture(&scene, View::Scene, scene.time.frames - 1)? {
-        page.picture("grains_heap.png", "The heap with the greatest friction.", |path| {
-            crate::output::write_file(path, &crate::output::encode_png(picture, path)?)
-        })?;
+        page.picture(
+            "grains_heap.png",
+            "The heap with the greatest friction.",
+            |path| crate::output::write_file(path, &crate::output::encode_png(picture, path)?),
+        )?;
     }
     page.paragraph(
         "Discs pour in disorder onto a floor that holds them by the same friction; the resistance to rolling is half of it. \
@@ -157,7 +163,10 @@ mod tests {
         let mut discs = Vec::new();
         for row in 0..20 {
             for i in -40 + 2 * row..=40 - 2 * row {
-                discs.push([f64::from(i) * 2.0 * RADIUS, f64::from(row) * 2.0 * RADIUS + RADIUS]);
+                discs.push([
+                    f64::from(i) * 2.0 * RADIUS,
+                    f64::from(row) * 2.0 * RADIUS + RADIUS,
+                ]);
             }
         }
         // A row is a diameter high, and a slope steps in by two of them.

@@ -37,7 +37,11 @@ pub fn oblique(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
     );
     let spheres = scale.angles.iter().enumerate().map(|(i, angle)| {
         let (sin, cos) = angle.to_radians().sin_cos();
-        let place = Vec3::new(size as f32 / 2.0, (1.002 * radius) as f32, 0.005 + 0.01 * i as f32);
+        let place = Vec3::new(
+            size as f32 / 2.0,
+            (1.002 * radius) as f32,
+            0.005 + 0.01 * i as f32,
+        );
         (place, speed as f32 * Vec3::new(sin as f32, -cos as f32, 0.0))
     });
     let empty = scenes::with_particles(&file, Default::default())?;
@@ -105,7 +109,7 @@ pub fn rolling(page: &mut Page, bench: &Bench, _: &Scale) -> Result<()> {
         2.0,
         GRAVITY,
         json!({
-            "radius": radius, "density": 2500, "law": "linear", "contact_time": 4e-3, "restitution": 0.5,
+            "radius": radius, "density": 2500, "law": "linear", "contact_time": 1e-3, "restitution": 0.5,
             "friction": friction
         }),
     );
@@ -113,14 +117,20 @@ pub fn rolling(page: &mut Page, bench: &Bench, _: &Scale) -> Result<()> {
     let spring = empty.friction().map_or(1.0, |law| law.walls.stiffness);
     let sunk = grains(&empty).mass * GRAVITY / spring;
     let rolls = 2.0 * speed / (7.0 * friction * GRAVITY);
-    let step = rolls / 1000.0;
-    let begin = (Vec3::new(0.2, (radius - sunk) as f32, 1.0), Vec3::X * speed as f32);
-    let scene = placed(&file, particles([begin]), step, 50, 30)?;
+    let step = rolls / 4000.0;
+    let begin = (
+        Vec3::new(0.2, (radius - sunk) as f32, 1.0),
+        Vec3::X * speed as f32,
+    );
+    let scene = placed(&file, particles([begin]), step, 200, 30)?;
     let (mut speeds, mut spins) = (Vec::new(), Vec::new());
     run(bench, &scene, &["velocity", "angular_velocity"], |frame| {
-        let time = f64::from(frame.index) * 50.0 * step / rolls;
+        let time = f64::from(frame.index) * 200.0 * step / rolls;
         speeds.push((time, vectors(frame, "velocity")[0].x / speed));
-        spins.push((time, -vectors(frame, "angular_velocity")[0].z * (radius - sunk) / speed));
+        spins.push((
+            time,
+            -vectors(frame, "angular_velocity")[0].z * (radius - sunk) / speed,
+        ));
     })?;
     let last = speeds[30].1;
     let slope = (speeds[18].1 - speeds[2].1) / (speeds[18].0 - speeds[2].0);
@@ -168,7 +178,13 @@ pub fn stack(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
         })
         .collect();
     let frames = 4;
-    let scene = placed(&file, particles(column), contact / 40.0, scale.rest / frames, frames)?;
+    let scene = placed(
+        &file,
+        particles(column),
+        contact / 40.0,
+        scale.rest / frames,
+        frames,
+    )?;
     let mut heights: Vec<Vec<f64>> = Vec::new();
     run(bench, &scene, &["position"], |frame| {
         heights.push(vectors(frame, "position").iter().map(|p| p.y).collect());
