@@ -347,7 +347,7 @@ fn a_grain_holds_on_a_slope_below_the_angle_of_friction_and_leaves_one_above() {
             let crept = at(4) - at(3);
             println!("{angle}°: {crept:.1e} m in the last quarter");
             if holds {
-                assert!(crept.abs() < 3e-6 * radius, "{angle}°: crept by {crept:.1e} m");
+                assert!(crept.abs() < 2e-5 * radius, "{angle}°: crept by {crept:.1e} m");
             } else {
                 // It is faster by g (sin θ − μ cos θ) times a quarter of the time.
                 let time = step * f64::from(steps);
