@@ -54,9 +54,9 @@ pub fn oblique(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
     let mut table = Table::new([
         "angle, degrees",
         "tangential restitution",
-        "closed form, where it slides",
+        "closed form of it, where it slides",
         "spin, rad/s",
-        "closed form, where it slides",
+        "closed form of the spin, where it slides",
     ]);
     let mut found = Vec::new();
     let mut form = Vec::new();
