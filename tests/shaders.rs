@@ -182,11 +182,50 @@ fn plans_with_sensors() -> Vec<Plan> {
     plans
 }
 
+/// Plans of grains that rotate, which together use every flag and role.
+fn friction_plans() -> Vec<Plan> {
+    let mut plans = Vec::new();
+    for dimensions in [2, 3] {
+        let sensors = sensors(dimensions, false);
+        for more in [
+            &["grains.global_damping=0.1"][..],
+            &["grains.rolling_friction=0.1", "time.adaptive=true"],
+            &[
+                "grains.rolling_friction=0.1",
+                "grains.rolling_resistance=constant_torque",
+                "neighbors.storage=pool",
+            ],
+            &[
+                "grains.law=hertz",
+                "grains.spring=null",
+                "grains.young_modulus=1e6",
+            ],
+        ] {
+            if dimensions == 2 && more[0] == "grains.law=hertz" {
+                continue;
+            }
+            let given = [
+                "grains.law=linear",
+                "domain.walls=contact",
+                "domain.sides={}",
+                &*sensors,
+            ];
+            let scene = common::scene(dimensions, &[&given[..], more].concat());
+            for sensors in [false, true] {
+                let wanted = Wanted { sensors, ..wanted() };
+                plans.push(Plan::new(&scene, &Limits::PROMISED, &wanted).expect("a plan"));
+            }
+        }
+    }
+    plans
+}
+
 /// Plans that together use every flag and role.
 fn plans() -> Vec<Plan> {
     let wanted = wanted();
     let mut plans = fluid_plans();
     plans.extend(plans_with_sensors());
+    plans.extend(friction_plans());
     for dimensions in [2, 3] {
         for addressing in ADDRESSINGS.iter().map(|row| row.name) {
             for storage in STORAGES.iter().map(|row| row.name) {

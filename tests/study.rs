@@ -417,6 +417,26 @@ fn speed_is_weighed_against_error() {
 }
 
 #[test]
+fn grains_have_a_page_with_the_same_figures_as_its_json() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cases = ["restitution", "oblique", "heap"];
+    let (page, json) = run_cases("grains", &cases, folder.path());
+    check(folder.path(), &page, &json, 4);
+    for row in json["restitution"].as_array().expect("rows") {
+        let error = row["largest error of e"].as_f64().expect("a number");
+        let steps = row["steps per contact"].as_f64().expect("a number");
+        assert!(steps < 50.0 || error <= 1e-3, "{row}");
+    }
+    let angles: Vec<f64> = json["heap"]
+        .as_array()
+        .expect("rows")
+        .iter()
+        .map(|row| row["angle, degrees"].as_f64().expect("a number"))
+        .collect();
+    assert!(angles[0] < angles[1], "friction makes heaps steeper: {angles:?}");
+}
+
+#[test]
 fn only_one_study_runs_other_programs() {
     let folder = tempfile::tempdir().expect("a folder");
     let refused = |paper: &str, python: &str| {

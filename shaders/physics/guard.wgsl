@@ -17,7 +17,7 @@ struct Guard {
     velocity: vec4f, // m/s
     id: u32, // of that particle; its slot, until advance_clock.wgsl looks up the id
     step: u32, // advance_clock.wgsl sets it
-    kind: u32, // GUARD_NOT_FINITE, GUARD_LOST or GUARD_RAN_AWAY
+    kind: u32, // GUARD_NOT_FINITE, GUARD_LOST, GUARD_RAN_AWAY or GUARD_CROWDED
     count: atomic<u32>, // catches in all
     extremes: Extremes, // of the step
     far: atomic<u32>, // not zero: a particle has moved so far that a neighbor may be missing from a list

@@ -348,20 +348,28 @@ pub fn phases(
     before: &[PassPlan],
     [after, once]: [&[PassPlan]; 2],
 ) -> [Vec<PassPlan>; 2] {
-    let copy = |items, why: &str| PassPlan::new("storage/lists/keep", "keep_particles", items, why);
+    let mut copies = vec![("storage/lists/keep", "keep_particles")];
+    if search.goes_on.stay {
+        copies.push(("storage/lists/keep_too", "keep_particles_too"));
+    }
+    let copy = |items, why: &str| -> Vec<PassPlan> {
+        let pass = |&(shader, entry): &(&str, &str)| PassPlan::new(shader, entry, items, why);
+        copies.iter().map(pass).collect()
+    };
     let mut searching = Vec::new();
     if !every_step {
-        searching.push(copy(
+        searching.extend(copy(
             Items::AwayParticles,
             "particles back from the `next_` buffers, when their lists serve",
         ));
-        searching.push(PassPlan {
+        let into = copy(
+            Items::ReturnedParticles,
+            "particles into the `next_` buffers, when they are searched",
+        );
+        searching.extend(into.into_iter().map(|pass| PassPlan {
             flipped: true,
-            ..copy(
-                Items::ReturnedParticles,
-                "particles into the `next_` buffers, when they are searched",
-            )
-        });
+            ..pass
+        }));
     }
     searching.extend_from_slice(&search.passes);
     searching.extend(when(after, Items::SearchedParticles));

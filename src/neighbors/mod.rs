@@ -21,6 +21,7 @@ pub use storage::STORAGES;
 use glam::Vec3;
 
 use crate::gpu::{BufferPlan, DISPATCHES, Items, PassPlan, Variant};
+use crate::scene::field::GoesOn;
 use crate::scene::model::Axis;
 use crate::scene::{Dimensions, Scene};
 use addressing::RoomRule;
@@ -54,6 +55,8 @@ pub struct Search {
     pub passes: Vec<PassPlan>,
     /// Whether boundary particles stand behind all others.
     separated: bool,
+    /// Which passes that copy particles' fields need a second one.
+    goes_on: GoesOn,
     /// Flags of the variant that the addressing and the storage need.
     flags: Vec<&'static str>,
     /// Constants of the variant that the storage needs.
@@ -226,6 +229,7 @@ impl Search {
             constants: Vec::new(),
             notes: Vec::new(),
             separated: storage.sorts && !scene.boundary.is_empty(),
+            goes_on: scene.goes_on(),
             grid,
         };
         if search.separated {

@@ -121,6 +121,14 @@ pub(super) fn follow(search: &mut Search, particles: u64) {
         Items::Particles,
         "the rest of what particles have, into voxel order",
     ));
+    if search.goes_on.follow {
+        search.passes.push(PassPlan::new(
+            "storage/sorted/follow_too",
+            "follow_particles_too",
+            Items::Particles,
+            "what one pass more takes into voxel order",
+        ));
+    }
 }
 
 fn counting(search: &mut Search, particles: u32, neighbors: &Neighbors) {
@@ -191,11 +199,19 @@ fn pool(search: &mut Search, _: u32, neighbors: &Neighbors) {
             Items::Particles,
             "particles keep their places",
         ),
-        PassPlan::new(
-            build,
-            "insert_particles",
-            Items::Particles,
-            "each particle's index into its voxel",
-        ),
     ]);
+    if search.goes_on.follow {
+        search.passes.push(PassPlan::new(
+            "storage/pool/take_too",
+            "take_particles_too",
+            Items::Particles,
+            "what one pass more takes along",
+        ));
+    }
+    search.passes.push(PassPlan::new(
+        build,
+        "insert_particles",
+        Items::Particles,
+        "each particle's index into its voxel",
+    ));
 }

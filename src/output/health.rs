@@ -51,7 +51,7 @@ impl Health {
         if overlap > LARGEST_OVERLAP && !self.overlap_told {
             self.overlap_told = true;
             warnings.push(format!(
-                "frame {}: grains overlap by {:.0} % of their radius; raise grains.spring for stiffer grains",
+                "frame {}: grains overlap by {:.0} % of their radius; make grains stiffer (grains.spring, or grains.young_modulus)",
                 frame.index,
                 100.0 * overlap
             ));

@@ -4,12 +4,16 @@ use glam::Vec3;
 
 use super::collider::{Obstacles, offset_at, velocity_between};
 use super::fluid::FLAG;
-use super::layout::{ClampWalls, Collider, Contact, ContactWalls, Measure};
+use super::layout::{
+    ClampWalls, Collider, Contact, ContactWalls, FrictionalContact, Guard, Measure, Motion, Pairing,
+};
 use super::model::{Fault, Model, OwnFigures, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::neighbors::Grid;
 use crate::neighbors::grid::voxel_reach;
-use crate::scene::model::{Dashpot, Integrator, Wall};
+use crate::scene::field::{contact_slots, contact_words};
+use crate::scene::friction::{self, Friction, REACH};
+use crate::scene::model::{ContactLaw, Dashpot, Integrator, RollingResistance, Wall};
 use crate::scene::{self, Dimensions, Matter, Scene};
 
 /// Stands for a wall that is not there, metres; far from every f32 position and safely finite when subtracted.
@@ -72,6 +76,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         .flag("colliders", !obstacles.colliders.is_empty())
         .flag("moving_colliders", obstacles.moving)
         .flag("mesh_colliders", !obstacles.field.is_empty())
+        .flag("rotation", given.contact.friction.is_some())
         .flag("normal_dashpot", given.contact.dashpot == Dashpot::Normal)
         .flag("shear", ever(|c| c.shear > 0.0))
         .flag("attraction", ever(|c| c.attraction > 0.0))
@@ -80,9 +85,16 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
 
     let mut solver = Solver::default();
     let buffers = &mut solver.buffers;
+    let size = match &given.contact.friction {
+        Some(friction) => {
+            set_friction(scene, friction, variant);
+            FrictionalContact::LAYOUT.size
+        }
+        None => Contact::LAYOUT.size,
+    };
     buffers.push(BufferPlan::uniform(
         "contact",
-        Contact::LAYOUT.size,
+        size,
         "coefficients of the contact law",
     ));
     if contact_walls {
@@ -120,6 +132,26 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         "counts the step",
     );
     match scene.time.integrator {
+        _ if given.contact.friction.is_some() => {
+            let bytes = Motion::LAYOUT.size as u64;
+            let why = "accelerations and angular accelerations by contacts and weight";
+            let each = u64::from(scene.capacity);
+            buffers.push(BufferPlan::storage("contact_acceleration", each, bytes, why));
+            solver.before_search.extend([
+                pass(
+                    "sum_contacts",
+                    "sum_contact_forces",
+                    "contact forces, torques, and what contacts remember",
+                ),
+                pass(
+                    "leapfrog",
+                    "leap_grains",
+                    "velocities half a step later, positions (velocity Verlet)",
+                ),
+                pass("turn", "turn_grains", "angular velocities half a step later"),
+                clock,
+            ]);
+        }
         Integrator::SymplecticEuler => {
             let why = "contact forces and symplectic Euler (Rojas 2013, Eq. 7)";
             solver
@@ -170,10 +202,56 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     solver
 }
 
+/// What the shaders of grains that rotate are made of.
+fn set_friction(scene: &Scene, friction: &Friction, variant: &mut Variant) {
+    let rolls = friction.rolling == Some(RollingResistance::Spring);
+    variant
+        .flag("rolling", friction.rolling.is_some())
+        .flag("rolling_spring", rolls)
+        .role("contact_law", contact_law(friction.law))
+        .constant("CONTACT_SLOTS", contact_slots(scene.dimensions))
+        .constant("CONTACT_WORDS", contact_words(scene.dimensions, rolls))
+        .constant("GUARD_CROWDED", Guard::CROWDED);
+    if let Some(rolling) = friction.rolling {
+        variant.role("rolling_law", rolling_law(rolling));
+    }
+}
+
+/// Shader file of a contact law of grains that rotate.
+fn contact_law(law: ContactLaw) -> &'static str {
+    match law {
+        ContactLaw::Hertz => "physics/dem/contact_laws/hertz",
+        ContactLaw::Linear | ContactLaw::SpringDashpot => "physics/dem/contact_laws/linear",
+    }
+}
+
+/// Shader file of what resists rolling.
+fn rolling_law(rolling: RollingResistance) -> &'static str {
+    match rolling {
+        RollingResistance::Spring => "physics/dem/rolling/spring",
+        RollingResistance::ConstantTorque => "physics/dem/rolling/constant_torque",
+    }
+}
+
 /// The contact law's coefficients.
 fn parameters(_: &Scene, matter: &Matter) -> Vec<Written> {
     let grains = grains(matter);
     let contact = &grains.contact;
+    if let Some(friction) = &contact.friction {
+        let contact = FrictionalContact {
+            grains: pairing(&friction.grains),
+            walls: pairing(&friction.walls),
+            diameter: (2.0 * grains.radius) as f32,
+            reach: (REACH * 2.0 * grains.radius) as f32,
+            inverse_mass: (1.0 / grains.mass) as f32,
+            inverse_inertia: (1.0 / friction.inertia) as f32,
+            inertia: friction.inertia as f32,
+            global_damping: contact.global_damping as f32,
+            farthest: FAR,
+            ..Default::default()
+        };
+        return vec![Written::new("contact", &[contact])];
+    }
     let contact = Contact {
         spring: contact.spring as f32,
         damping: contact.damping as f32,
@@ -185,6 +263,22 @@ fn parameters(_: &Scene, matter: &Matter) -> Vec<Written> {
         inverse_mass: (1.0 / grains.mass) as f32,
     };
     vec![Written::new("contact", &[contact])]
+}
+
+/// Coefficients as shaders read them.
+fn pairing(pairing: &friction::Pairing) -> Pairing {
+    Pairing {
+        stiffness: pairing.stiffness as f32,
+        damping: pairing.damping as f32,
+        shear_stiffness: pairing.shear_stiffness as f32,
+        shear_damping: pairing.shear_damping as f32,
+        friction: pairing.friction as f32,
+        rolling_limit: pairing.rolling_limit as f32,
+        rolling_stiffness: pairing.rolling_stiffness as f32,
+        rolling_damping: pairing.rolling_damping as f32,
+        rolling_inertia: pairing.rolling_inertia as f32,
+        ..Default::default()
+    }
 }
 
 /// Shapes with their offsets and velocities, and a clock that begins anew.

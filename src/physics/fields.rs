@@ -4,6 +4,8 @@
 //! - `fields/place` takes a particle from where a step left it to its slot: `place(i, slot)`. That is position and velocity;
 //!   the rest comes in a pass of its own by `follow(i, slot)` of `fields/follow`, so that neither binds too many buffers;
 //! - `fields/stay` takes what steps change to the same places in the other buffers: `stay(i)`;
+//! - `fields/follow_too` and `fields/stay_too` go on where particles have more fields than one pass binds
+//!   ([`Scene::goes_on`] says so);
 //! - `fields/keep` leaves for the next search what no step changes: `keep(i)`;
 //! - `fields/NAME` of a field that is the spare number of a vector has `NAME_of(i)`, and `fields/VECTOR/pack` puts both
 //!   together: `pack_VECTOR(v, NAME)`;
@@ -16,7 +18,7 @@ use std::fmt::Write;
 use crate::gpu::{BufferPlan, Variant};
 use crate::scene::Scene;
 use crate::scene::column::{Column, Source};
-use crate::scene::field::{FIELDS, Field, Kind, Travels};
+use crate::scene::field::{COPIED_AT_ONCE, FIELDS, Field, Kind, PLACED, Travels};
 
 /// Buffers of all fields that a scene has and of those that are measured for somebody; each of the latter has a flag.
 pub fn plan(scene: &Scene, columns: &[Column], variant: &mut Variant) -> Vec<BufferPlan> {
@@ -48,15 +50,14 @@ fn measurable() -> impl Iterator<Item = &'static Field> {
         .filter(|field| field.column == Some(Source::Measured))
 }
 
-/// Fields that a search takes to their places while it finds these.
-const PLACED: [&str; 2] = ["position", "velocity"];
-
 /// Shader modules of these fields, by path.
 pub fn modules(fields: &[Field]) -> BTreeMap<String, String> {
     let mut modules = BTreeMap::new();
     let mut place = Function::new("place", "i: u32, slot: u32");
     let mut follow = Function::new("follow", "i: u32, slot: u32");
+    let mut follow_too = Function::new("follow_too", "i: u32, slot: u32");
     let mut stay = Function::new("stay", "i: u32");
+    let mut stay_too = Function::new("stay_too", "i: u32");
     let mut keep = Function::new("keep", "i: u32");
     let mut measured = String::new();
     for field in fields {
@@ -71,14 +72,16 @@ pub fn modules(fields: &[Field]) -> BTreeMap<String, String> {
             let goes = if PLACED.contains(&name) {
                 &mut place
             } else {
-                &mut follow
+                follow.or(&mut follow_too)
             };
-            goes.copy(&format!("next_{name}"), name, "slot");
+            goes.copy(field, &format!("next_{name}"), name, "slot");
         }
         match field.travels {
             Travels::No => {}
-            Travels::Stepped => stay.copy(&format!("next_{name}"), name, "i"),
-            Travels::Kept => keep.copy(name, &format!("next_{name}"), "i"),
+            Travels::Stepped => stay
+                .or(&mut stay_too)
+                .copy(field, &format!("next_{name}"), name, "i"),
+            Travels::Kept => keep.copy(field, name, &format!("next_{name}"), "i"),
         }
         if field.column == Some(Source::Measured) {
             push(&mut measured, format!("#import fields/{name}/write"));
@@ -89,7 +92,7 @@ pub fn modules(fields: &[Field]) -> BTreeMap<String, String> {
             modules.insert(format!("fields/{name}/color"), text);
         }
     }
-    for function in [place, follow, stay, keep] {
+    for function in [place, follow, follow_too, stay, stay_too, keep] {
         modules.insert(format!("fields/{}", function.name), function.module());
     }
     modules.insert("fields/measured".into(), measured);
@@ -98,6 +101,7 @@ pub fn modules(fields: &[Field]) -> BTreeMap<String, String> {
 
 /// A shader function that copies elements of buffers.
 struct Function {
+    fields: usize,
     name: &'static str,
     parameters: &'static str,
     imports: String,
@@ -107,6 +111,7 @@ struct Function {
 impl Function {
     fn new(name: &'static str, parameters: &'static str) -> Self {
         Self {
+            fields: 0,
             name,
             parameters,
             imports: String::new(),
@@ -114,13 +119,23 @@ impl Function {
         }
     }
 
+    /// Itself while it may copy more, and then the one that goes on.
+    fn or<'a>(&'a mut self, next: &'a mut Self) -> &'a mut Self {
+        if self.fields < COPIED_AT_ONCE { self } else { next }
+    }
+
     /// Copies element `i` of a buffer to a place in another one.
-    fn copy(&mut self, from: &str, to: &str, place: &str) {
+    fn copy(&mut self, field: &Field, from: &str, to: &str, place: &str) {
+        self.fields += 1;
         push(
             &mut self.imports,
             format!("#import fields/{from}\n#import fields/{to}/write"),
         );
-        push(&mut self.body, format!("    {to}[{place}] = {from}[i];"));
+        let text = match field.kind {
+            Kind::Contacts { .. } => slots_in_use(from, to, place),
+            _ => format!("    {to}[{place}] = {from}[i];"),
+        };
+        push(&mut self.body, text);
     }
 
     fn module(&self) -> String {
@@ -129,9 +144,26 @@ impl Function {
             parameters,
             imports,
             body,
+            ..
         } = self;
         format!("{imports}fn {name}({parameters}) {{\n{body}}}")
     }
+}
+
+/// Copies slots of contacts, up to the first one that is empty.
+fn slots_in_use(from: &str, to: &str, place: &str) -> String {
+    format!(
+        "    for (var word = 0u; word < CONTACT_SLOTS * CONTACT_WORDS; word += CONTACT_WORDS) {{
+        let first = {from}[i * CONTACT_SLOTS * CONTACT_WORDS + word];
+        {to}[{place} * CONTACT_SLOTS * CONTACT_WORDS + word] = first;
+        for (var more = word + 1u; more < word + CONTACT_WORDS; more++) {{
+            {to}[{place} * CONTACT_SLOTS * CONTACT_WORDS + more] = {from}[i * CONTACT_SLOTS * CONTACT_WORDS + more];
+        }}
+        if first.w == 0.0 {{
+            break;
+        }}
+    }}"
+    )
 }
 
 /// The modules of a field that is the spare number of a vector.
@@ -154,6 +186,8 @@ fn declare(modules: &mut BTreeMap<String, String>, buffer: &str, field: &Field) 
         Kind::Pair => ("", "vec2f"),
         Kind::Vector => ("#import common/vector\n", "Packed"),
         Kind::Matrix => ("#import physics/fluid/matrix\n", "Matrix"),
+        Kind::HalfStep => ("#import physics/dem/motion\n", "HalfStep"),
+        Kind::Contacts { .. } => ("", "vec4f"),
     };
     for (path, access) in [
         (format!("fields/{buffer}"), "read"),

@@ -105,7 +105,7 @@ shared_struct! {
         pub velocity: [f32; 4],
         pub id: u32,
         pub step: u32,
-        /// [`Guard::NOT_FINITE`], [`Guard::LOST`] or [`Guard::RAN_AWAY`].
+        /// [`Guard::NOT_FINITE`], [`Guard::LOST`], [`Guard::RAN_AWAY`] or [`Guard::CROWDED`].
         pub kind: u32,
         pub count: u32,
         /// Of the step.
@@ -119,6 +119,7 @@ impl Guard {
     pub const NOT_FINITE: u32 = 1;
     pub const LOST: u32 = 2;
     pub const RAN_AWAY: u32 = 3;
+    pub const CROWDED: u32 = 4;
     /// Stands in `step` as long as nothing was caught.
     pub const NO_STEP: u32 = u32::MAX;
 }
@@ -157,6 +158,58 @@ shared_struct! {
         pub diameter: f32,
         /// 1/kg.
         pub inverse_mass: f32,
+    }
+}
+
+shared_struct! {
+    /// Coefficients of a contact of two grains, or of a grain and a wall, in the units of the contact law.
+    pub struct Pairing {
+        pub stiffness: f32,
+        pub damping: f32,
+        pub shear_stiffness: f32,
+        pub shear_damping: f32,
+        /// Tangential over normal force, at most.
+        pub friction: f32,
+        /// Torque over normal force, at most, metres.
+        pub rolling_limit: f32,
+        /// N·m per radian, over the normal stiffness, m².
+        pub rolling_stiffness: f32,
+        /// N·m·s, over the square root of the rolling stiffness.
+        pub rolling_damping: f32,
+        /// kg·m².
+        pub rolling_inertia: f32,
+        pub _pad: [u32; 3],
+    }
+}
+
+shared_struct! {
+    /// Contacts of grains that rotate and rub.
+    pub struct FrictionalContact {
+        pub grains: Pairing,
+        pub walls: Pairing,
+        /// Metres.
+        pub diameter: f32,
+        /// Distance within which centers may come to touch during half a step, metres.
+        pub reach: f32,
+        /// 1/kg.
+        pub inverse_mass: f32,
+        /// 1/(kg·m²).
+        pub inverse_inertia: f32,
+        /// kg·m².
+        pub inertia: f32,
+        /// 1/s.
+        pub global_damping: f32,
+        /// More than any coordinate, metres.
+        pub farthest: f32,
+        pub _pad: u32,
+    }
+}
+
+shared_struct! {
+    /// Something linear and something angular, each with a number beside it.
+    pub struct Motion {
+        pub linear: Packed,
+        pub angular: Packed,
     }
 }
 
@@ -402,6 +455,9 @@ pub const SHARED: &[SharedLayout] = &[
     ContactWalls::LAYOUT,
     ClampWalls::LAYOUT,
     Contact::LAYOUT,
+    Pairing::LAYOUT,
+    FrictionalContact::LAYOUT,
+    Motion::LAYOUT,
     Collider::LAYOUT,
     Measure::LAYOUT,
     Fluid::LAYOUT,

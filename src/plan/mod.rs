@@ -19,7 +19,8 @@ use crate::physics::collider::Obstacles;
 use crate::physics::layout::{Clock, Guard, Occupancy, Parameters, Sums};
 use crate::physics::{self, Model, Request, dem, fields, sensors, step_control};
 use crate::render;
-use crate::scene::column::Column;
+use crate::scene::column::{Column, Source};
+use crate::scene::field::Kind;
 use crate::scene::model::View;
 use crate::scene::{Dimensions, Scene};
 
@@ -221,11 +222,21 @@ impl Plan {
             columns.push(colored);
         }
 
-        if !scene.has_field("material") && columns.iter().any(|column| column.name == "material") {
-            return Err(Error::usage(
-                "all particles are of one material",
-                "leave the column `material` out, or describe several fluids in fluid.materials",
-            ));
+        let missing = |column: &&Column| column.source == Source::Field && !scene.has_field(column.name);
+        match columns.iter().find(missing).map(|column| column.name) {
+            Some("material") => {
+                return Err(Error::usage(
+                    "all particles are of one material",
+                    "leave the column `material` out, or describe several fluids in fluid.materials",
+                ));
+            }
+            Some(name) => {
+                return Err(Error::usage(
+                    format!("particles of this scene have no {}", name.replace('_', " ")),
+                    format!("leave the column `{name}` out, or set grains.law to `linear` or `hertz`"),
+                ));
+            }
+            None => {}
         }
         let search = neighbors::plan(scene, grid, &mut variant);
         let model = physics::model(&scene.matter);
@@ -490,6 +501,7 @@ fn column_bytes(scene: &Scene, column: &Column) -> u64 {
     let each = match column.name {
         "position" => 8 * scene.dimensions.count() as u64,
         "velocity" => 4 * scene.dimensions.count() as u64,
+        name if scene.kind_of(name) == Kind::Vector => 12,
         _ => 4,
     };
     each * u64::from(scene.capacity)

@@ -2,7 +2,7 @@
 
 use super::fluid;
 use super::frame::Report;
-use super::model::{Change, FluidSolver, NegativePressure, SceneFile, Slip};
+use super::model::{Change, ContactLaw, FluidSolver, NegativePressure, SceneFile, Slip};
 use super::text::list;
 
 /// A key of `events[].set`.
@@ -16,11 +16,20 @@ struct Changeable {
 /// Who has parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Of {
-    Grains,
+    Grains(ContactLaw),
     Fluid(FluidSolver),
 }
 
-const GRAINS: &[Of] = &[Of::Grains];
+const GRAINS: &[Of] = &[
+    Of::Grains(ContactLaw::SpringDashpot),
+    Of::Grains(ContactLaw::Linear),
+    Of::Grains(ContactLaw::Hertz),
+];
+const SPRINGS: &[Of] = &[
+    Of::Grains(ContactLaw::SpringDashpot),
+    Of::Grains(ContactLaw::Linear),
+];
+const SPRING_DASHPOT: &[Of] = &[Of::Grains(ContactLaw::SpringDashpot)];
 const FLUIDS: &[Of] = &[
     Of::Fluid(FluidSolver::Sph),
     Of::Fluid(FluidSolver::Wcsph),
@@ -34,11 +43,11 @@ const fn row(key: &'static str, of: &'static [Of], is_given: fn(&Change) -> bool
 
 /// Every parameter besides gravity, which all scenes have. The step is as short as each of the values demands.
 const CHANGEABLE: &[Changeable] = &[
-    row("spring", GRAINS, |change| change.spring.is_some()),
-    row("damping", GRAINS, |change| change.damping.is_some()),
+    row("spring", SPRINGS, |change| change.spring.is_some()),
+    row("damping", SPRING_DASHPOT, |change| change.damping.is_some()),
     row("restitution", GRAINS, |change| change.restitution.is_some()),
-    row("shear", GRAINS, |change| change.shear.is_some()),
-    row("attraction", GRAINS, |change| change.attraction.is_some()),
+    row("shear", SPRING_DASHPOT, |change| change.shear.is_some()),
+    row("attraction", SPRING_DASHPOT, |change| change.attraction.is_some()),
     row("global_damping", GRAINS, |change| change.global_damping.is_some()),
     row("viscosity", FLUIDS, |change| change.viscosity.is_some()),
     row("artificial_viscosity", FLUIDS, |change| {
@@ -56,10 +65,11 @@ const CHANGEABLE: &[Changeable] = &[
 
 /// Reports what is wrong with a change. Returns the index of the material that it is about, if it names one.
 pub(super) fn check(path: &str, change: &Change, file: &SceneFile, report: &mut Report) -> Option<usize> {
+    let law = file.grains.as_ref().map(|grains| grains.law).unwrap_or_default();
     let of = file
         .fluid
         .as_ref()
-        .map_or(Of::Grains, |fluid| Of::Fluid(fluid.solver));
+        .map_or(Of::Grains(law), |fluid| Of::Fluid(fluid.solver));
     for row in CHANGEABLE.iter().filter(|row| (row.is_given)(change)) {
         if !row.of.contains(&of) {
             let own = CHANGEABLE.iter().filter(|row| row.of.contains(&of));
@@ -67,7 +77,8 @@ pub(super) fn check(path: &str, change: &Change, file: &SceneFile, report: &mut 
             report.problem(
                 format!("{path}.{}", row.key),
                 match of {
-                    Of::Grains => "has no effect on grains",
+                    Of::Grains(ContactLaw::SpringDashpot) => "has no effect on grains",
+                    Of::Grains(_) => "has no effect on grains of this contact law",
                     Of::Fluid(FluidSolver::Dfsph) => "the solver `dfsph` does not know it",
                     Of::Fluid(_) => "has no effect on a fluid",
                 },

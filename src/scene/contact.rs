@@ -6,8 +6,9 @@
 
 use std::f64::consts::PI;
 
+use super::friction;
 use super::model::{Change, Dashpot, Grains};
-use super::{Contact, frame::Report};
+use super::{Contact, Dimensions, frame::Report};
 
 /// The contact law as the user gives it; events change it.
 #[derive(Debug, Clone, Copy)]
@@ -18,6 +19,8 @@ pub struct Law {
     shear: f64,
     attraction: f64,
     global_damping: f64,
+    /// Of grains that rotate.
+    friction: Option<friction::Given>,
 }
 
 /// What contacts lose.
@@ -30,7 +33,23 @@ enum Loss {
 }
 
 impl Law {
-    pub fn new(grains: &Grains, report: &mut Report) -> Self {
+    /// Of grains of so many kilograms that are expected to meet with at most `speed` m/s.
+    pub fn new(grains: &Grains, dimensions: Dimensions, mass: f64, speed: f64, report: &mut Report) -> Self {
+        let friction = friction::Given::new(grains, dimensions, mass, speed);
+        if let Some(friction) = friction {
+            // What is missing has been told.
+            let restitution = grains.restitution.unwrap_or(1.0);
+            let by_time = |time| friction.spring(time, restitution);
+            return Self {
+                spring: grains.spring.or(grains.contact_time.map(by_time)).unwrap_or(1.0),
+                loss: Loss::Restitution(restitution),
+                dashpot: Dashpot::Normal,
+                shear: 0.0,
+                attraction: 0.0,
+                global_damping: grains.global_damping,
+                friction: Some(friction),
+            };
+        }
         let loss = loss("grains", grains.damping, grains.restitution, report).unwrap_or_else(|| {
             if grains.damping.is_none() {
                 report.problem(
@@ -42,12 +61,13 @@ impl Law {
             Loss::Damping(0.0)
         });
         Self {
-            spring: grains.spring,
+            spring: grains.spring.unwrap_or(1.0),
             loss,
             dashpot: grains.dashpot,
             shear: grains.shear,
             attraction: grains.attraction,
             global_damping: grains.global_damping,
+            friction,
         }
     }
 
@@ -60,11 +80,24 @@ impl Law {
             shear: change.shear.unwrap_or(self.shear),
             attraction: change.attraction.unwrap_or(self.attraction),
             global_damping: change.global_damping.unwrap_or(self.global_damping),
+            friction: self.friction,
         }
     }
 
     /// Coefficients for grains of `mass` kilograms.
     pub fn contact(&self, mass: f64) -> Contact {
+        if let (Some(friction), Loss::Restitution(restitution)) = (self.friction, self.loss) {
+            return Contact {
+                spring: 0.0,
+                damping: 0.0,
+                wall_damping: 0.0,
+                dashpot: self.dashpot,
+                shear: 0.0,
+                attraction: 0.0,
+                global_damping: self.global_damping,
+                friction: Some(friction.friction(self.spring, restitution)),
+            };
+        }
         let (damping, wall_damping) = match self.loss {
             Loss::Damping(both) => (both, both),
             Loss::Restitution(e) => {
@@ -81,6 +114,7 @@ impl Law {
             shear: self.shear,
             attraction: self.attraction,
             global_damping: self.global_damping,
+            friction: None,
         }
     }
 }
@@ -102,7 +136,7 @@ fn loss(path: &str, damping: Option<f64>, restitution: Option<f64>, report: &mut
 }
 
 /// β = −ln e / √(π² + ln² e).
-fn damping_ratio(restitution: f64) -> f64 {
+pub fn damping_ratio(restitution: f64) -> f64 {
     let ln = restitution.ln();
     -ln / (PI * PI + ln * ln).sqrt()
 }
@@ -113,6 +147,9 @@ impl Contact {
     /// The attraction, which grows with distance, stiffens a contact and is added to the spring. A contact that is
     /// damped beyond β = 1 never swings back; there it is π m_eff / η, the time in which its speed fades.
     pub fn duration(&self, mass: f64) -> f64 {
+        if let Some(friction) = &self.friction {
+            return friction.duration;
+        }
         let half_period = |effective_mass: f64, damping: f64| {
             let omega = ((self.spring + self.attraction) / effective_mass).sqrt();
             let beta = damping / (2.0 * effective_mass * omega);
@@ -127,6 +164,9 @@ impl Contact {
 
     /// Rate at which dashpot, shear and global damping slow a contact of two grains, 1/s; walls slow it less.
     pub fn damping_rate(&self, mass: f64) -> f64 {
+        if let Some(friction) = &self.friction {
+            return friction.damping_rate + self.global_damping;
+        }
         (self.damping + self.shear) / (mass / 2.0) + self.global_damping
     }
 }

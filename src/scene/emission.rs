@@ -1,6 +1,9 @@
 //! Emitters: when they flow, and where a layer's grains stand.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
+use rand::Rng;
 
 use super::Dimensions;
 
@@ -24,26 +27,80 @@ pub fn flows(on_at_start: bool, switches: &[(f64, bool)], end: f64) -> Vec<(f64,
 
 /// Points across `axis`, no farther than `reach` from the center: a hexagonal lattice, or a line in 2D.
 pub fn layer(center: DVec3, axis: DVec3, reach: f64, spacing: f64, dimensions: Dimensions) -> Vec<DVec3> {
+    lattice(reach, spacing, dimensions, Placed::default())
+        .into_iter()
+        .map(|point| on_plane(center, axis, dimensions, point))
+        .collect()
+}
+
+/// The same, with the lattice turned and shifted at random, and points displaced as far as they stay `width` apart, in their
+/// layer and from layers a spacing away.
+pub fn loose_layer(
+    center: DVec3,
+    axis: DVec3,
+    reach: f64,
+    spacing: f64,
+    width: f64,
+    dimensions: Dimensions,
+    rng: &mut impl Rng,
+) -> Vec<DVec3> {
+    let mut within = |half: f64| half * (2.0 * rng.random::<f64>() - 1.0);
+    let placed = Placed {
+        angle: within(PI),
+        shift: [within(spacing), within(spacing)],
+    };
+    // Inside a ball whose diameter is the gap.
+    let half = (spacing - width).max(0.0) / 2.0 / 3f64.sqrt();
+    let gap = half * 3f64.sqrt();
+    let points = lattice((reach - gap).max(0.0), spacing, dimensions, placed);
+    let mut loosen = |point: [f64; 2]| {
+        let moved = [point[0] + within(half), point[1] + within(half)];
+        on_plane(center, axis, dimensions, moved) + axis * within(half)
+    };
+    points.into_iter().map(&mut loosen).collect()
+}
+
+/// How a lattice lies in its plane.
+#[derive(Debug, Clone, Copy, Default)]
+struct Placed {
+    /// Radians; 3D only.
+    angle: f64,
+    /// Metres.
+    shift: [f64; 2],
+}
+
+/// Points of a lattice that are no farther than `reach` from zero.
+fn lattice(reach: f64, spacing: f64, dimensions: Dimensions, placed: Placed) -> Vec<[f64; 2]> {
     let reach = reach + 1e-9 * spacing;
-    let steps = (reach / spacing).ceil().max(0.0) as i32;
+    // One more where the lattice is shifted.
+    let more = i32::from(placed.shift != [0.0; 2]);
+    let steps = (reach / spacing).ceil().max(0.0) as i32 + more;
     let mut points = Vec::new();
     if dimensions == Dimensions::Two {
-        let along = DVec3::new(-axis.y, axis.x, 0.0);
-        let line = (-steps..=steps).map(|i| f64::from(i) * spacing);
-        points.extend(line.filter(|s| s.abs() <= reach).map(|s| center + along * s));
+        let line = (-steps..=steps).map(|i| f64::from(i) * spacing + placed.shift[0]);
+        points.extend(line.filter(|s| s.abs() <= reach).map(|s| [s, 0.0]));
         return points;
     }
-    let (u, v) = axis.any_orthonormal_pair();
+    let (sin, cos) = placed.angle.sin_cos();
     let rows = (f64::from(steps) * 2.0 / 3f64.sqrt()).ceil() as i32;
     for row in -rows..=rows {
         let shift = f64::from(row.rem_euclid(2)) / 2.0;
-        let y = f64::from(row) * spacing * 3f64.sqrt() / 2.0;
+        let y = f64::from(row) * spacing * 3f64.sqrt() / 2.0 + placed.shift[1];
         for i in -steps - 1..=steps {
-            let x = (f64::from(i) + shift) * spacing;
+            let x = (f64::from(i) + shift) * spacing + placed.shift[0];
             if x.hypot(y) <= reach {
-                points.push(center + u * x + v * y);
+                points.push([x * cos - y * sin, x * sin + y * cos]);
             }
         }
     }
     points
+}
+
+/// A point of the plane across `axis`; of the line across it in 2D.
+fn on_plane(center: DVec3, axis: DVec3, dimensions: Dimensions, [x, y]: [f64; 2]) -> DVec3 {
+    if dimensions == Dimensions::Two {
+        return center + DVec3::new(-axis.y, axis.x, 0.0) * x;
+    }
+    let (u, v) = axis.any_orthonormal_pair();
+    center + u * x + v * y
 }

@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use super::column::{Column, Source};
 use super::fluid::Fluid;
-use super::model::{DensityFrom, FluidSolver, Integrator, Slip, ViscosityForm};
+use super::model::{DensityFrom, FluidSolver, Integrator, RollingResistance, Slip, ViscosityForm};
 use super::{Dimensions, Particles, Scene};
 
 /// A value of every particle.
@@ -42,6 +42,13 @@ pub enum Kind {
     /// As many numbers as there are dimensions, and one beside them.
     Vector,
     Matrix,
+    /// `HalfStep` of `shaders/physics/dem/motion.wgsl`.
+    HalfStep,
+    /// What contacts remember: slots for as many contacts as a grain may have.
+    Contacts {
+        /// Whether they remember how far grains have rolled too.
+        rolls: bool,
+    },
 }
 
 /// Whether a value goes where its particle goes when particles are sorted.
@@ -72,7 +79,29 @@ impl Kind {
             (Self::Pair, _) => 8,
             (Self::Vector, _) | (Self::Matrix, Dimensions::Two) => 16,
             (Self::Matrix, Dimensions::Three) => 48,
+            (Self::HalfStep, _) => 48,
+            (Self::Contacts { rolls }, _) => {
+                16 * u64::from(contact_slots(dimensions) * contact_words(dimensions, rolls))
+            }
         }
+    }
+}
+
+/// Contacts that a grain has room to remember. Equal spheres touch at most twelve others, equal discs six; the rest is for
+/// walls and obstacles, and for overlaps.
+pub fn contact_slots(dimensions: Dimensions) -> u32 {
+    match dimensions {
+        Dimensions::Two => 8,
+        Dimensions::Three => 16,
+    }
+}
+
+/// Vectors of four numbers that a contact is remembered by.
+pub fn contact_words(dimensions: Dimensions, rolls: bool) -> u32 {
+    match dimensions {
+        // An angle stands beside the vector.
+        Dimensions::Two => 1,
+        Dimensions::Three => 1 + u32::from(rolls),
     }
 }
 
@@ -187,7 +216,53 @@ pub const FIELDS: &[Field] = &[
         about: "velocity Verlet needs the last accelerations",
         travels: Travels::Stepped,
         saved: true,
-        has: |scene| scene.time.integrator == Integrator::VelocityVerlet,
+        has: |scene| scene.time.integrator == Integrator::VelocityVerlet && scene.friction().is_none(),
+        ..ROW
+    },
+    Field {
+        name: "angular_velocity",
+        kind: Kind::Vector,
+        unit: "rad/s",
+        about: "angular velocity of the grain, about z in 2D",
+        column: Some(Source::Field),
+        travels: Travels::Stepped,
+        saved: true,
+        has: |scene| scene.friction().is_some(),
+        start: Some(|new| {
+            bytemuck::cast_slice(&new.ids.iter().map(|&id| contact_key(id)).collect::<Vec<_>>()).to_vec()
+        }),
+        ..ROW
+    },
+    Field {
+        name: "half_step",
+        kind: Kind::HalfStep,
+        about: "velocity and angular velocity half a step ago, and what rounding took of the way",
+        travels: Travels::Stepped,
+        saved: true,
+        has: |scene| scene.friction().is_some(),
+        start: Some(|new| {
+            let half_step = |v: &Vec3| [[v.x, v.y, v.z, 0.0], [0.0; 4], [0.0; 4]];
+            let all: Vec<[[f32; 4]; 3]> = new.free.velocity.iter().map(half_step).collect();
+            bytemuck::cast_slice(&all).to_vec()
+        }),
+        ..ROW
+    },
+    Field {
+        name: "contact_history",
+        kind: Kind::Contacts { rolls: false },
+        about: "how far the surfaces have slid at each contact of the grain",
+        travels: Travels::Stepped,
+        saved: true,
+        has: |scene| scene.friction().is_some() && !rolls_by_spring(scene),
+        ..ROW
+    },
+    Field {
+        name: "contact_history",
+        kind: Kind::Contacts { rolls: true },
+        about: "how far the surfaces have slid and rolled at each contact of the grain",
+        travels: Travels::Stepped,
+        saved: true,
+        has: rolls_by_spring,
         ..ROW
     },
     Field {
@@ -248,6 +323,21 @@ pub const FIELDS: &[Field] = &[
     },
 ];
 
+/// No angular velocity, and beside it the key by which contacts remember the grain.
+fn contact_key(id: u32) -> [f32; 4] {
+    [0.0, 0.0, 0.0, (id + 1) as f32]
+}
+
+/// The most grains that have a contact key of their own: whole numbers are exact in f32 up to here.
+pub const MOST_KEYS: u64 = (1 << 24) - 1;
+
+/// Whether contacts remember how far grains have rolled.
+fn rolls_by_spring(scene: &Scene) -> bool {
+    scene
+        .friction()
+        .is_some_and(|friction| friction.rolling == Some(RollingResistance::Spring))
+}
+
 /// The scene's fluid at the start and after each change, unless it is incompressible.
 fn compressible(scene: &Scene) -> impl Iterator<Item = &Fluid> {
     let fluids = scene.matters().filter_map(|matter| matter.fluid());
@@ -264,7 +354,33 @@ fn vectors(free: &[Vec3], boundary: &[Vec3]) -> Vec<u8> {
     bytemuck::cast_slice(&four).to_vec()
 }
 
+/// Fields that a search takes to their places while it finds these.
+pub const PLACED: [&str; 2] = ["position", "velocity"];
+
+/// Fields that one pass copies.
+pub const COPIED_AT_ONCE: usize = 3;
+
+/// Which of the passes that copy fields need a second one.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct GoesOn {
+    /// Of what follows position and velocity to its place.
+    pub follow: bool,
+    /// Of all that steps change.
+    pub stay: bool,
+}
+
 impl Scene {
+    /// Whether its particles have more fields than one pass copies.
+    pub fn goes_on(&self) -> GoesOn {
+        let fields = || self.fields().filter(|field| field.beside.is_none());
+        let follow = fields().filter(|field| field.travels != Travels::No && !PLACED.contains(&field.name));
+        let stay = fields().filter(|field| field.travels == Travels::Stepped);
+        GoesOn {
+            follow: follow.count() > COPIED_AT_ONCE,
+            stay: stay.count() > COPIED_AT_ONCE,
+        }
+    }
+
     /// The fields of its particles, those apart that are measured when somebody asks for them.
     pub fn fields(&self) -> impl Iterator<Item = &Field> {
         let own = FIELDS.iter().chain(&self.more_fields);

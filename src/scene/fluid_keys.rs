@@ -93,7 +93,7 @@ fn of_compressible_fluids(file: &SceneFile, fluid: &Fluid, report: &mut Report) 
             "leave it out, or set fluid.solver to `wcsph`",
         );
     }
-    if file.time.integrator != Integrator::SymplecticEuler {
+    if file.time.integrator() != Integrator::SymplecticEuler {
         report.problem(
             "time.integrator",
             "the solver `dfsph` has an integrator of its own",

@@ -19,6 +19,8 @@ pub mod fluid;
 mod fluid_keys;
 mod frame;
 mod free_surface;
+pub mod friction;
+mod grain_keys;
 pub mod import;
 mod json;
 pub mod keys;
@@ -53,6 +55,7 @@ use boundary::BoundaryParticles;
 use column::Column;
 use field::Field;
 use fluid::Fluid;
+use friction::Friction;
 use sensors::Sensors;
 
 /// A validated scene. Nothing after `scene::load` asks again whether a number makes sense.
@@ -101,7 +104,10 @@ impl Scene {
     /// How far neighbors are searched, metres.
     pub fn search_radius(&self) -> f64 {
         match &self.matter {
-            Matter::Grains(grains) => 2.0 * grains.radius,
+            Matter::Grains(grains) => match grains.contact.friction {
+                Some(_) => friction::REACH * 2.0 * grains.radius,
+                None => 2.0 * grains.radius,
+            },
             Matter::Fluid(fluid) => fluid.support,
         }
     }
@@ -112,6 +118,11 @@ impl Scene {
 
     pub fn fluid(&self) -> Option<&Fluid> {
         self.matter.fluid()
+    }
+
+    /// Of grains that rotate and rub.
+    pub fn friction(&self) -> Option<&Friction> {
+        self.grains().and_then(|grains| grains.contact.friction.as_ref())
     }
 
     /// What particles are at the start and after each change, in order of time.
@@ -273,6 +284,8 @@ pub struct Contact {
     pub attraction: f64,
     /// 1/s.
     pub global_damping: f64,
+    /// Of grains that rotate; then all but `global_damping` of the above is zero.
+    pub friction: Option<Friction>,
 }
 
 /// Positions (local, metres) and velocities (m/s) of particles, one entry per particle.

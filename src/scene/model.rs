@@ -246,8 +246,8 @@ pub struct Sides {
     pub z_max: Option<Wall>,
 }
 
-/// Equal grains and their contact law: spring and dashpot (Harada 2007, Eq. 9 and 10), shear and attraction
-/// (Green 2012). Give the dashpot as `damping` or as `restitution`, not both.
+/// Equal grains and their contact law. By `spring_dashpot` they do not rotate; by `linear` and `hertz` they rotate, rub and
+/// resist rolling, so that they come to rest as a heap.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Grains {
@@ -258,25 +258,63 @@ pub struct Grains {
     #[serde(default = "sand")]
     #[schemars(range(min = 1e-6, max = 1e6))]
     pub density: f64,
-    /// Spring coefficient k of Harada 2007, Eq. 9, in N/m.
+    /// How grains push each other, and whether they rotate.
+    #[serde(default)]
+    pub law: ContactLaw,
+    /// Spring coefficient of `spring_dashpot` (k of Harada 2007, Eq. 9) and `linear`, in N/m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-12, max = 1e15))]
-    pub spring: f64,
-    /// Dashpot coefficient η of Harada 2007, Eq. 10, in N·s/m.
+    pub spring: Option<f64>,
+    /// Seconds that a head-on contact of two grains lasts; says what `spring` is, with `linear`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-9, max = 1e3))]
+    pub contact_time: Option<f64>,
+    /// Young's modulus of the grains' material, Pa, with `hertz`. Walls are rigid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1.0, max = 1e13))]
+    pub young_modulus: Option<f64>,
+    /// Poisson's ratio of the grains' material, with `hertz`; 0.25 when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 0.5))]
+    pub poisson_ratio: Option<f64>,
+    /// Coulomb's coefficient of friction between grains, with `linear` and `hertz`; 0.5 when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub friction: Option<f64>,
+    /// The same between grains and walls or obstacles; that between grains when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub wall_friction: Option<f64>,
+    /// Tangential over normal stiffness, with `linear`; when left out 2/7 (1/3 in 2D), with which a contact swings along and
+    /// across in the same time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.001, max = 2.0))]
+    pub tangential_stiffness: Option<f64>,
+    /// Resistance to rolling, with `linear` and `hertz`: greatest torque over normal force and effective radius (half of a
+    /// grain's, and all of it at walls). 0 when left out. It stands for grains that are not round: 0.1 to 0.5 for sand.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub rolling_friction: Option<f64>,
+    /// How rolling is resisted, where `rolling_friction` is more than 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rolling_resistance: Option<RollingResistance>,
+    /// Dashpot coefficient η of Harada 2007, Eq. 10, in N·s/m, with `spring_dashpot`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e12))]
     pub damping: Option<f64>,
-    /// Speed after a head-on collision over speed before it; sets η for two grains and for a wall so that both give it.
+    /// Speed after a head-on collision over speed before it; sets the dashpots for two grains and for a wall so that both
+    /// give it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.001, max = 1.0))]
     pub restitution: Option<f64>,
-    /// Which part of the relative velocity the dashpot resists.
+    /// Which part of the relative velocity the dashpot of `spring_dashpot` resists.
     #[serde(default)]
     pub dashpot: Dashpot,
-    /// Force against the tangential relative velocity at a contact (Green 2012), N·s/m.
+    /// Force against the tangential relative velocity at a contact of `spring_dashpot` (Green 2012), N·s/m.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e12))]
     pub shear: f64,
-    /// Pull towards a touching grain, times the distance of the centers (Green 2012), N/m.
+    /// Pull towards a touching grain of `spring_dashpot`, times the distance of the centers (Green 2012), N/m.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e12))]
     pub attraction: f64,
@@ -288,6 +326,33 @@ pub struct Grains {
 
 fn sand() -> f64 {
     2500.0
+}
+
+/// How grains push each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ContactLaw {
+    /// Spring and dashpot (Harada 2007, Eq. 9 and 10) with shear and attraction (Green 2012). Give the dashpot as `damping`
+    /// or as `restitution`, not both. Grains do not rotate and nothing keeps them from sliding, so heaps flow apart.
+    #[default]
+    SpringDashpot,
+    /// Linear springs and dashpots across and along the contact, the latter under Coulomb's limit (Cundall and Strack 1979).
+    /// Give `spring` or `contact_time`, and `restitution`. Grains rotate.
+    Linear,
+    /// Elastic spheres (Hertz 1882, Mindlin 1949) under Coulomb's limit, from `young_modulus`, `poisson_ratio` and
+    /// `restitution`, which holds at all speeds (Tsuji 1992). Grains rotate. 3D only.
+    Hertz,
+}
+
+/// How rolling is resisted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RollingResistance {
+    /// A spring that gives way at the greatest torque, with a dashpot as long as it holds (type C of Ai et al. 2011).
+    #[default]
+    Spring,
+    /// The greatest torque, as long as there is rolling (type A of Ai et al. 2011).
+    ConstantTorque,
 }
 
 /// Which part of the relative velocity the dashpot resists.
@@ -340,7 +405,7 @@ fn quarter() -> f64 {
     0.25
 }
 
-/// How a body's particles stand at the start.
+/// How particles stand at the start, or when they come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Arrangement {
@@ -626,6 +691,11 @@ pub struct Emitter {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-9, max = 1e6))]
     pub spacing: Option<f64>,
+    /// How the particles of a layer stand: on a lattice, which is the same in each layer, or in `random` disorder, each layer
+    /// turned, shifted and loosened as far as particles do not overlap. When left out `lattice`, and `random` for grains that
+    /// rotate.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arrangement: Option<Arrangement>,
     /// Name of one of `fluid.materials`; the first when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
@@ -903,8 +973,10 @@ pub struct Time {
     /// Steps in the shortest contact, when `step` is left out; fewer than 20 is refused.
     #[schemars(range(min = 20, max = 100_000))]
     pub steps_per_contact: u32,
-    /// How a step is made from forces.
-    pub integrator: Integrator,
+    /// How a step is made from forces: `symplectic_euler` when left out, and `velocity_verlet` for grains whose law is `linear`
+    /// or `hertz`, which know no other.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub integrator: Option<Integrator>,
     /// Whether the device chooses each step by what it finds: motion, acceleration and, in fluids, the local speed of
     /// sound, besides the contact's duration, viscosity and `step`. Steps land on frame times and on events. Needs
     /// neighbor lists (`neighbors.skin`).
@@ -924,10 +996,17 @@ impl Default for Time {
             fps: 30.0,
             step: None,
             steps_per_contact: 40,
-            integrator: Integrator::default(),
+            integrator: None,
             adaptive: false,
             sensor_interval: None,
         }
+    }
+}
+
+impl Time {
+    /// What the scene asks for, or what is usual for all but grains that rotate.
+    pub fn integrator(&self) -> Integrator {
+        self.integrator.unwrap_or_default()
     }
 }
 

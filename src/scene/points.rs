@@ -137,6 +137,7 @@ const NO_CONTACT: Contact = Contact {
     shear: 0.0,
     attraction: 0.0,
     global_damping: 0.0,
+    friction: None,
 };
 
 fn check(points: &[DVec3], dimensions: Dimensions, search_radius: f64) -> Result<()> {

@@ -10,7 +10,7 @@ use super::contact::Law;
 use super::emission;
 use super::fluid;
 use super::frame::{Frame, Report};
-use super::model::{Change, Emitter, Event, SceneFile};
+use super::model::{Arrangement, Change, ContactLaw, Emitter, Event, SceneFile};
 use super::motion::{self, Shift};
 use super::shapes::{self, Region};
 use super::text::{number, suggest};
@@ -332,11 +332,41 @@ impl<'a> Unroll<'a> {
             );
             return;
         }
+        let rotate = self
+            .file
+            .grains
+            .as_ref()
+            .is_some_and(|grains| grains.law != ContactLaw::SpringDashpot);
+        let usual = if rotate {
+            Arrangement::Random
+        } else {
+            Arrangement::Lattice
+        };
+        let mut rng = ChaCha8Rng::seed_from_u64(self.file.seed);
+        rng.set_stream(index as u64);
         for flow in &flows {
             for n in 0..layers(flow) as u32 {
                 let time = flow.0 + f64::from(n) * every;
-                let batch = self.batch(&points, velocity, material);
-                self.due.push((time, Due::Add(batch)));
+                let batch = match emitter.arrangement.unwrap_or(usual) {
+                    Arrangement::Lattice => self.batch(&points, velocity, material),
+                    Arrangement::Random => {
+                        let reach = emitter.radius - grain;
+                        let dimensions = self.frame.dimensions;
+                        let layer = emission::loose_layer(
+                            center,
+                            axis,
+                            reach,
+                            spacing,
+                            2.0 * grain,
+                            dimensions,
+                            &mut rng,
+                        );
+                        self.batch(&layer, velocity, material)
+                    }
+                };
+                if !batch.is_empty() {
+                    self.due.push((time, Due::Add(batch)));
+                }
             }
         }
     }

@@ -48,6 +48,10 @@ pub fn of_grains(
         .iter()
         .map(|contact| contact.duration(mass))
         .fold(f64::INFINITY, f64::min);
+    let softer = match contacts[0].friction {
+        Some(friction) if friction.law == model::ContactLaw::Hertz => "lower grains.young_modulus",
+        _ => "make grains.spring softer",
+    };
     let coarsest = shortest / FEWEST_STEPS_PER_CONTACT;
     let usual = shortest / f64::from(time.steps_per_contact);
     let (mut step, mut limited_by) = match time.step {
@@ -62,7 +66,7 @@ pub fn of_grains(
                 number(step),
                 number(shortest)
             ),
-            format!("set it to at most {} s, leave it out, or make grains.spring softer", number(coarsest)),
+            format!("set it to at most {} s, leave it out, or {softer}", number(coarsest)),
         );
     }
     let rate = contacts
@@ -79,7 +83,10 @@ pub fn of_grains(
             ));
         }
     }
-    let help = "raise `fps`, make grains.spring softer, or lower grains.damping and grains.shear";
+    let help = match contacts[0].friction {
+        Some(_) => format!("raise `fps`, or {softer}"),
+        None => "raise `fps`, make grains.spring softer, or lower grains.damping and grains.shear".into(),
+    };
     let adaptive = time.adaptive.then_some(StepLimits {
         expected: step,
         constant: (step, limited_by),
@@ -91,7 +98,11 @@ pub fn of_grains(
     Time {
         contact_duration: Some(shortest),
         adaptive,
-        ..fit_frames(time, frames, step, limited_by, help, report)
+        integrator: match contacts[0].friction {
+            Some(_) => model::Integrator::VelocityVerlet,
+            None => time.integrator(),
+        },
+        ..fit_frames(time, frames, step, limited_by, &help, report)
     }
 }
 
@@ -161,7 +172,7 @@ fn fit_frames(
         fps: time.fps,
         step: frame / steps_per_frame,
         steps_per_frame: steps_per_frame as u32,
-        integrator: time.integrator,
+        integrator: time.integrator(),
         contact_duration: None,
         limited_by,
         adaptive: None,

@@ -15,6 +15,8 @@ use super::fluid::{Fluid, Speeds};
 use super::fluid_keys;
 use super::frame::{Frame, Report};
 use super::free_surface;
+use super::friction;
+use super::grain_keys;
 use super::model::{
     Addressing, DensityFrom, FluidSolver, Integrator, Render, SceneFile, SlicingAxis, StartPressure, Storage,
     Wall,
@@ -37,7 +39,7 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
         return Err(report.problems);
     }
     fluid_keys::check(&file, &mut report);
-    let law = file.grains.as_ref().map(|grains| Law::new(grains, &mut report));
+    grain_keys::check(&file, &frame, &mut report);
     let mass = mass(&file, frame.dimensions);
     let end = time::end(&file.time);
     let mut colliders = obstacles::colliders(&file, &frame, folder, end, &mut report);
@@ -49,6 +51,13 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
         bodies,
     } = bodies::fill(&file, &fillings, &frame, obstacles, folder, &mut report);
     let frames = time::frames(&file.time, &mut report);
+    let fastest = particles.velocity.iter().map(|v| f64::from(v.length()));
+    let fastest = fastest.fold(fastest_wall(&file, &colliders), f64::max);
+    let weight = vector(&file.gravity.0);
+    let height = weight.normalize_or_zero().abs().dot(frame.max - frame.min);
+    let speed = friction::expected_speed(fastest, weight.length(), height);
+    let grains = file.grains.as_ref();
+    let law = grains.map(|grains| Law::new(grains, frame.dimensions, mass, speed, &mut report));
     let schedule = schedule::schedule(&file, &frame, law, mass, end, &mut colliders, &mut report);
     let gravity = vector(&file.gravity.0);
     let contacts: Vec<_> = law
@@ -93,7 +102,7 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
                         fluid.spacing,
                         fluid.support,
                     ));
-            let fluid = fluid.with_surface(given, surface, gravity.length(), file.time.integrator);
+            let fluid = fluid.with_surface(given, surface, gravity.length(), file.time.integrator());
             let matter = Matter::Fluid(fluid.clone());
             let actions = schedule.actions(matter.clone());
             let later = actions.iter().filter_map(|scheduled| match &scheduled.action {
@@ -118,9 +127,15 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
         &schedule,
         &mut report,
     );
+    if matter
+        .grains()
+        .is_some_and(|grains| grains.contact.friction.is_some())
+    {
+        grain_keys::check_count(capacity, &mut report);
+    }
     let given = file.fluid.as_ref().and_then(|fluid| fluid.shifting);
     let shifts = given.is_some_and(|strength| strength > 0.0);
-    if shifts && file.time.integrator == Integrator::VelocityVerlet {
+    if shifts && file.time.integrator() == Integrator::VelocityVerlet {
         report.problem(
             "fluid.shifting",
             "particles are shifted by `symplectic_euler` only",

@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::Simulation;
 use crate::error::{Casualty, Error};
 use crate::physics::layout::{Guard, StepControl};
+use crate::scene::field::contact_slots;
 
 impl Simulation {
     /// The error that tells of a particle that the guard caught.
@@ -29,6 +30,14 @@ impl Simulation {
                     "pressures push it on without end, or the time step of {:.3e} s is too long; raise \
                      fluid.max_speed, lower time.step, or set fluid.negative_pressure to `clamp`",
                     place.step
+                ),
+            ),
+            Guard::CROWDED => (
+                "a grain touches more grains and walls than it can remember contacts",
+                format!(
+                    "there is room for {} of them, more than rigid grains can have: these overlap far too much; make \
+                     them stiffer (grains.spring, or grains.young_modulus)",
+                    contact_slots(self.scene.dimensions)
                 ),
             ),
             Guard::NOT_FINITE | Guard::RAN_AWAY => (

@@ -243,6 +243,17 @@ pub(super) fn columns(scene: &Scene, plan: &Plan, raw: &BTreeMap<&str, &[u8]>) -
                 let slice = |&s: &usize| plan.grid.slice_of(vector(&position, s));
                 Values::Unsigned(slot_of.iter().map(slice).collect())
             }
+            field if scene.kind_of(field) == Kind::Vector => {
+                let values: Vec<Packed> = bytemuck::pod_collect_to_vec(raw[field]);
+                // Three numbers in 2D too: what turns there turns about z.
+                Values::Vector {
+                    columns: 3,
+                    values: slot_of
+                        .iter()
+                        .flat_map(|&s| vector(&values, s).to_array())
+                        .collect(),
+                }
+            }
             field if scene.kind_of(field) == Kind::Unsigned => {
                 let values: Vec<u32> = bytemuck::pod_collect_to_vec(raw[field]);
                 Values::Unsigned(slot_of.iter().map(|&s| values[s]).collect())

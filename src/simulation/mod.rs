@@ -31,9 +31,7 @@ use crate::gpu::{BufferPlan, Buffers, Gpu};
 use crate::neighbors::{Grid, boxes, lists};
 use crate::physics::Written;
 use crate::physics::collider::offset_at;
-use crate::physics::layout::{
-    Clock, Guard, Occupancy, Overflow, PACKED_BYTES, Parameters, StepControl, Sums,
-};
+use crate::physics::layout::{Clock, Guard, Occupancy, Overflow, Parameters, StepControl, Sums};
 use crate::plan::Plan;
 use crate::render::Renderer;
 use crate::scene::{Action, Matter, Scene};
@@ -500,10 +498,7 @@ impl Simulation {
         let wanted = &self.plan.wanted;
         if index.is_multiple_of(wanted.columns_every.max(1)) {
             for name in frame::sources(&wanted.columns) {
-                let bytes = match name {
-                    "position" | "velocity" => PACKED_BYTES,
-                    _ => 4,
-                };
+                let bytes = self.scene.kind_of(name).bytes(self.scene.dimensions);
                 add(name, bytes * u64::from(self.count));
             }
         }

@@ -13,9 +13,9 @@ use crate::gpu::readback;
 use crate::neighbors::layout::ListState;
 use crate::neighbors::{Grid, lists};
 use crate::physics::layout::{Clock, Overflow, Packed, StepControl, packed};
-use crate::scene::field::Field;
+use crate::scene::field::{Field, Kind, Newcomers, contact_slots, contact_words};
 use crate::scene::model::Axis;
-use crate::scene::{Action, Dimensions, Scene};
+use crate::scene::{Action, Dimensions, Particles, Scene};
 
 /// What the step after a frame depends on.
 #[derive(Debug, Clone, PartialEq)]
@@ -123,6 +123,21 @@ fn saved(scene: &Scene) -> impl Iterator<Item = &Field> {
     scene.fields().filter(|field| field.saved)
 }
 
+/// What grains begin with of a field that the state of a scene without it lacks.
+fn begun(field: &Field, state: &State) -> Option<Vec<u8>> {
+    let free = Particles {
+        position: state.vectors("position")?,
+        velocity: state.vectors("velocity")?,
+        ..Particles::default()
+    };
+    let newcomers = Newcomers {
+        free: &free,
+        boundary: &Particles::default(),
+        ids: &state.ids(),
+    };
+    field.start.map(|start| start(&newcomers))
+}
+
 /// Vectors as `common/vector.wgsl` packs them.
 fn pack(vectors: &[Vec3]) -> Vec<u8> {
     let stored: Vec<Packed> = vectors.iter().map(|&v| packed(v)).collect();
@@ -161,10 +176,9 @@ impl Simulation {
             if self.buffers.contains(name) {
                 let buffer = self.buffers.get(name, "(host)")?;
                 let read = readback::read::<u8>(&self.gpu, buffer, bytes);
-                buffers.push((
-                    name.to_owned(),
-                    self.dated(self.next_frame.saturating_sub(1), read)?,
-                ));
+                let mut read = self.dated(self.next_frame.saturating_sub(1), read)?;
+                self.clear_free_slots(name, &mut read);
+                buffers.push((name.to_owned(), read));
             }
         }
         Ok(State {
@@ -175,6 +189,22 @@ impl Simulation {
             lists_left_out: self.plan.lists_left_out.clone(),
             buffers,
         })
+    }
+
+    /// Zeroes what stands behind the slots of contacts that are in use: it was left there by contacts that are no more.
+    fn clear_free_slots(&self, field: &str, bytes: &mut [u8]) {
+        let found = self.scene.fields().find(|known| known.name == field);
+        let Some(Kind::Contacts { rolls }) = found.map(|field| field.kind) else {
+            return;
+        };
+        let dimensions = self.scene.dimensions;
+        let slot = 16 * contact_words(dimensions, rolls) as usize;
+        for grain in bytes.chunks_exact_mut(slot * contact_slots(dimensions) as usize) {
+            let is_free = |slot: &[u8]| slot[12..16] == [0; 4];
+            if let Some(used) = grain.chunks_exact(slot).position(is_free) {
+                grain[slot * used..].fill(0);
+            }
+        }
     }
 
     /// Puts a state back: [`Simulation::next_frame`] then makes the frame after it. The scene may be another one
@@ -224,7 +254,8 @@ impl Simulation {
         // The search puts every particle where it stood, since it keeps the order inside a voxel.
         for field in self.scene.fields() {
             let stored = self.left_by_step(field, |name| Ok(state.buffer(name).map(<[u8]>::to_vec)))?;
-            self.put(&field.before_search(), stored.as_deref())?;
+            let begun = || self.scene.friction().and_then(|_| begun(field, state));
+            self.put(&field.before_search(), stored.or_else(begun).as_deref())?;
         }
         if let (true, Some(why)) = (lists::can_be_left_out(&self.scene), &state.lists_left_out) {
             self.leave_lists_out(why.clone())?;

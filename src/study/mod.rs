@@ -4,6 +4,7 @@
 pub mod accuracy;
 mod bench;
 mod cpu_grid;
+mod grains;
 mod green;
 mod harada;
 pub(crate) mod measure;
@@ -55,6 +56,12 @@ pub const STUDIES: &[Study] = &[
         about: "Wall time against error of both solvers, and what each other choice costs",
         cases: || parts::names(speed_error::PARTS),
         run: speed_error::speed_error,
+    },
+    Study {
+        name: "grains",
+        about: "Grains that rotate and rub against closed forms; heaps of them",
+        cases: || parts::names(grains::PARTS),
+        run: grains::grains,
     },
     Study {
         name: "rojas",

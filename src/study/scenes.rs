@@ -63,7 +63,8 @@ pub fn with_particles(file: &Value, particles: Particles) -> Result<Scene> {
     let middle: Vec<f64> = [0, 1, 2]
         .map(|axis| file["domain"]["max"][axis].as_f64().unwrap_or(1.0) / 2.0)
         .to_vec();
-    file["bodies"] = json!([{ "shape": { "kind": "sphere", "center": middle, "radius": 1.5 * RADIUS } }]);
+    let grain = file["grains"]["radius"].as_f64().unwrap_or(RADIUS);
+    file["bodies"] = json!([{ "shape": { "kind": "sphere", "center": middle, "radius": 1.5 * grain } }]);
     let scene = parse(&file)?;
     let origin = scene.origin.as_vec3();
     let position = particles.position.iter().map(|&p| p - origin).collect();

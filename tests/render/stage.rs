@@ -52,6 +52,7 @@ pub fn scene(dimensions: Dimensions, min: Vec3, max: Vec3, radius: f64, size: [u
                 shear: 0.0,
                 attraction: 0.0,
                 global_damping: 0.0,
+                friction: None,
             },
         }),
         boundary: Default::default(),

@@ -1,7 +1,11 @@
 // Obstacles as contacts with the same law as between grains.
 #import common/vector
 #import common/parameters
+#if rotation
+#import physics/dem/friction
+#else
 #import physics/dem/law
+#end
 #if moving_colliders
 #if adaptive_step
 #import physics/step_control
@@ -120,7 +124,15 @@ fn nearest_on(collider: Collider, x: Vector) -> Nearest {
     }
 }
 
-fn with_collider(before: ContactSum, collider: Collider, x: Vector, v: Vector) -> ContactSum {
+#if rotation
+// Keys below those of the domain's sides.
+fn collider_key(c: u32) -> f32 {
+    return -8.0 - f32(c);
+}
+#end
+
+fn with_collider(before: ContactSum, c: u32, x: Vector, v: Vector) -> ContactSum {
+    let collider = colliders[c];
     var offset = first(collider.offset);
 #if moving_colliders
 #if adaptive_step
@@ -131,17 +143,28 @@ fn with_collider(before: ContactSum, collider: Collider, x: Vector, v: Vector) -
 #end
     let radius = 0.5 * contact.diameter;
     let nearest = nearest_on(collider, x - offset);
+#if rotation
+    if nearest.distance >= contact.reach - radius {
+        return before;
+    }
+    let approach = first(collider.velocity) - v;
+    let overlap = radius - nearest.distance;
+    let touch =
+        Touch(collider_key(c), -nearest.outwards, overlap, nearest.distance, approach, Rotation(), Vector(0.0));
+    return with_touch(before, touch, contact.walls);
+#else
     if nearest.distance >= radius {
         return before;
     }
     let approach = first(collider.velocity) - v;
     return with_contact(before, -nearest.outwards, radius - nearest.distance, approach, contact.wall_damping);
+#end
 }
 
 fn with_colliders(before: ContactSum, x: Vector, v: Vector) -> ContactSum {
     var sum = before;
     for (var c = 0u; c < COLLIDERS; c++) {
-        sum = with_collider(sum, colliders[c], x, v);
+        sum = with_collider(sum, c, x, v);
     }
     return sum;
 }

@@ -3,7 +3,14 @@
 #import common/parameters
 #import common/reach
 #import physics/present
+#if rotation
+#import physics/dem/friction
+#if !measuring
+#import fields/angular_velocity
+#end
+#else
 #import physics/dem/law
+#end
 #import <candidates>
 #if contact_walls
 #import physics/dem/walls
@@ -12,8 +19,30 @@
 #import physics/dem/colliders
 #end
 
+#if rotation
+// The contact of grain i with grain j, at this distance of their centers.
+fn with_grain(sum: ContactSum, j: u32, normal: Vector, distance: f32, approach: Vector) -> ContactSum {
+    let overlap = contact.diameter - distance;
+#if measuring
+    let touch = Touch(0.0, normal, overlap, 0.5 * distance, approach, Rotation(), Vector(0.0));
+#else
+    let other = angular_velocity[j];
+    let rest = rest_of(position[j]);
+    let touch = Touch(number_of(other), normal, overlap, 0.5 * distance, approach, unpack_rotation(other), rest);
+#end
+    return with_touch(sum, touch, contact.grains);
+}
+#end
+
 fn sum_contacts(i: u32) -> ContactSum {
     var sum = ContactSum();
+#if rotation
+#if !measuring
+    sum.grain = i;
+    sum.rotation = unpack_rotation(angular_velocity[i]);
+    sum.rest = rest_of(position[i]);
+#end
+#end
     let x = unpack(position[i]);
     let v = unpack(velocity[i]);
     let home = around(i, x);
@@ -22,7 +51,11 @@ fn sum_contacts(i: u32) -> ContactSum {
         for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
             let separation = unpack(position[j]) - x;
+#if rotation
+            if within(separation, contact.reach) && j != i {
+#else
             if within(separation, contact.diameter) && j != i {
+#end
                 let distance = length(separation);
                 var normal = separation / distance;
                 if distance == 0.0 {
@@ -30,8 +63,12 @@ fn sum_contacts(i: u32) -> ContactSum {
                     normal = Vector(0.0);
                     normal.x = select(-1.0, 1.0, i < j);
                 }
+#if rotation
+                sum = with_grain(sum, j, normal, distance, unpack(velocity[j]) - v);
+#else
                 let overlap = contact.diameter - distance;
                 sum = with_contact(sum, normal, overlap, unpack(velocity[j]) - v, contact.damping);
+#end
 #if attraction
                 sum.force += contact.attraction * separation;
 #end

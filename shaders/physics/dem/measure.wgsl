@@ -6,6 +6,9 @@
 #import fields/measured
 
 #import physics/measure
+#if rotation
+#import fields/angular_velocity
+#end
 #if statistics
 #import physics/group_sums
 #end
@@ -29,6 +32,10 @@ fn measure_grains(thread: Thread) {
     if alive {
         let v = unpack(velocity[i]);
         sums.kinetic_energy = 0.5 * measure.mass * dot(v, v);
+#if rotation
+        let w = length(unpack_rotation(angular_velocity[i]));
+        sums.kinetic_energy += 0.5 * contact.inertia * w * w;
+#end
         sums.potential_energy =
             -measure.mass * dot(first(parameters.gravity), unpack(position[i]) - first(measure.reference));
         sums.max_speed = length(v);

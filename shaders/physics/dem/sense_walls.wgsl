@@ -1,7 +1,12 @@
 // Forces on walls and obstacles: the contacts of each grain with one of them, reversed.
 #import common/thread
 #import physics/present
+#if rotation
+#import physics/dem/friction
+#import fields/angular_velocity
+#else
 #import physics/dem/law
+#end
 #import physics/sensors/target
 #import physics/sensors/sweep
 #if contact_walls
@@ -15,6 +20,11 @@ fn force_on(i: u32) -> Vector {
     let x = unpack(position[i]);
     let v = unpack(velocity[i]);
     var sum = ContactSum();
+#if rotation
+    sum.grain = i;
+    sum.rotation = unpack_rotation(angular_velocity[i]);
+    sum.rest = rest_of(position[i]);
+#end
     if sensed.target_body >= SIDE_TARGETS {
 #if contact_walls
         let side = sensed.target_body - SIDE_TARGETS;
@@ -26,7 +36,7 @@ fn force_on(i: u32) -> Vector {
 #end
     } else {
 #if colliders
-        sum = with_collider(sum, colliders[sensed.target_body], x, v);
+        sum = with_collider(sum, sensed.target_body, x, v);
 #end
     }
     return sum.force;

@@ -1,6 +1,10 @@
 // The domain's walls as contacts with the same law as between grains.
 #import common/vector
+#if rotation
+#import physics/dem/friction
+#else
 #import physics/dem/law
+#end
 
 struct ContactWalls {
     lower: vec4f, // m; far away on sides that are not such walls
@@ -9,12 +13,26 @@ struct ContactWalls {
 
 var<uniform> contact_walls: ContactWalls;
 
+#if rotation
+// Sides are told apart by where they face: keys from -7 to -1.
+fn side_key(outwards: Vector) -> f32 {
+    let face = to_3d(outwards);
+    return face.x + 2.0 * face.y + 3.0 * face.z - 4.0;
+}
+
+fn with_side(sum: ContactSum, outwards: Vector, overlap: f32, v: Vector) -> ContactSum {
+    let arm = 0.5 * contact.diameter - overlap;
+    let touch = Touch(side_key(outwards), outwards, overlap, arm, -v, Rotation(), Vector(0.0));
+    return with_touch(sum, touch, contact.walls);
+}
+#else
 // Without a branch: a contact of zero overlap and zero approach adds nothing, and six cheap sides cost less than the
 // branches. (Branches here crash the shader compiler of Mesa 22.3's software driver.)
 fn with_side(sum: ContactSum, outwards: Vector, overlap: f32, v: Vector) -> ContactSum {
     let approach = select(Vector(0.0), -v, overlap > 0.0);
     return with_contact(sum, outwards, max(overlap, 0.0), approach, contact.wall_damping);
 }
+#end
 
 fn with_walls(before: ContactSum, x: Vector, v: Vector) -> ContactSum {
     let radius = Vector(0.5 * contact.diameter);

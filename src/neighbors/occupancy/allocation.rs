@@ -71,6 +71,7 @@ impl Allocation {
             passes: Vec::new(),
             flags: Vec::new(),
             constants: Vec::new(),
+            goes_on: Default::default(),
             separated: false,
             notes: Vec::new(),
         };

@@ -2,8 +2,8 @@
 
 pub(in crate::study) mod channel;
 mod collision;
-mod columns;
-mod dem;
+pub mod columns;
+pub mod dem;
 mod elliptical_drop;
 mod fastest_particle;
 mod fluid;

@@ -1,0 +1,16 @@
+// Coefficients of contacts of grains that rotate.
+#import physics/dem/pairing
+
+struct FrictionalContact {
+    grains: Pairing,
+    walls: Pairing,
+    diameter: f32, // m
+    reach: f32, // distance within which centers may come to touch during half a step, m
+    inverse_mass: f32, // 1/kg
+    inverse_inertia: f32, // 1/(kg·m²)
+    inertia: f32, // kg·m²
+    global_damping: f32, // 1/s
+    @size(8) farthest: f32, // more than any coordinate, m
+}
+
+var<uniform> contact: FrictionalContact;
