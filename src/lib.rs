@@ -15,6 +15,7 @@
 //! Imports point one way: a room uses those above it in this list, never those below.
 //!
 //! - `src/error.rs`: the one error type; every message says what to do next.
+//! - `src/files.rs`: files that others name: none that never ends is read, nothing is written through a link.
 //! - `src/scene/`: what a user writes (`src/scene/model.rs`), checked against its own schema (`src/scene/check.rs`),
 //!   explained key by key (`src/scene/keys.rs`), made into numbers (`src/scene/validate.rs`); shapes, meshes and files
 //!   become particles. Points alone are a scene without physics (`src/scene/points.rs`). What a particle has is a row of
@@ -110,6 +111,7 @@
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod error;
+mod files;
 pub mod gpu;
 pub mod neighbors;
 pub mod output;

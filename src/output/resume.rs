@@ -11,10 +11,12 @@ use super::drive::{Launch, Start, drive, open};
 use super::folder::Folder;
 use super::interrupt;
 use super::progress::Progress;
+use super::rerun::Target;
 use super::rewind::checkpoints;
 use super::run::Settings;
 use super::stopping::Stopping;
 use crate::error::{Error, Result};
+use crate::files;
 use crate::plan::{Plan, Wanted};
 use crate::scene::Scene;
 use crate::simulation::{Simulation, State};
@@ -29,7 +31,7 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
     let progress = Progress::new(settings.progress, scene.time.frames);
     let first = configuration.first_frame;
     let frames = scene.time.frames;
-    let newest = newest(&recorded.folder, &configuration, u32::MAX, &progress)?;
+    let newest = newest(&recorded.folder, &configuration, &scene, u32::MAX, &progress)?;
     let made = match &newest {
         Some(checkpoint) => checkpoint.state.frame + 1,
         None => first,
@@ -40,7 +42,7 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
             "ask for more, or begin a new run",
         ));
     }
-    if recorded.status == "finished" && frames == first + recorded.frames_done {
+    if recorded.status == "finished" && frames == first.saturating_add(recorded.frames_done) {
         progress.note(&format!(
             "{} is finished: {frames} frames; make it longer with --frames, or start a variant with --branch-at",
             recorded.folder.display()
@@ -79,6 +81,7 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
         // What an earlier attempt left of this part is made again.
         video.check(true)?;
     }
+    check_outside(&settings)?;
     drive(Launch {
         scene: &scene,
         settings: &settings,
@@ -108,7 +111,7 @@ pub fn branch(recorded: &Recorded, frame: u32, overrides: &[String], settings: &
     for warning in overruled(&old, &scene, frame) {
         progress.warn(&warning);
     }
-    let newest = newest(&recorded.folder, configuration, frame, &progress)?;
+    let newest = newest(&recorded.folder, configuration, &old, frame, &progress)?;
     if newest.is_none() && configuration.variant_of.is_some() {
         return Err(Error::usage(
             "the checkpoint that this run began with is gone or damaged",
@@ -169,6 +172,35 @@ fn part_from(
         ));
     }
     part
+}
+
+/// Refuses to replace files outside of the run's folder unless told to: whoever wrote down the run's arguments may not be
+/// who resumes it.
+fn check_outside(settings: &Settings) -> Result<()> {
+    let outputs = &settings.outputs;
+    let recordings = outputs.rerun.iter().flat_map(|rerun| &rerun.targets);
+    let recordings = recordings.filter_map(|target| match target {
+        Target::File(path) => Some(path.as_path()),
+        _ => None,
+    });
+    let videos = outputs.video.iter().map(|video| video.path());
+    let run = settings.folder.canonicalize();
+    let is_outside = |path: &Path| {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let folder = folder.unwrap_or(Path::new(".")).canonicalize();
+        !matches!((&run, folder), (Ok(run), Ok(folder)) if folder.starts_with(run))
+    };
+    let is_there = |path: &Path| path.exists() || files::is_link(path);
+    match videos
+        .chain(recordings)
+        .find(|path| is_there(path) && is_outside(path))
+    {
+        Some(path) if !settings.force => Err(Error::usage(
+            format!("{} is there already, outside of the run's folder", path.display()),
+            "replace it with --force, or move it to another place",
+        )),
+        _ => Ok(()),
+    }
 }
 
 fn check_variant(configuration: &Configuration, old: &Scene, scene: &Scene, frame: u32) -> Result<()> {
@@ -233,6 +265,7 @@ fn overruled(old: &Scene, scene: &Scene, frame: u32) -> Vec<String> {
 fn newest(
     folder: &Path,
     configuration: &Configuration,
+    scene: &Scene,
     until: u32,
     progress: &Progress,
 ) -> Result<Option<Checkpoint>> {
@@ -243,7 +276,12 @@ fn newest(
         let wrong = match Checkpoint::read(&path) {
             Ok(read) if read.about.run_id != configuration.run_id => "belongs to another run".to_owned(),
             Ok(read) if read.state.frame != frame => "has the name of another frame".to_owned(),
-            Ok(read) => return Ok(Some(read)),
+            Ok(_) if frame < configuration.first_frame => "is of a frame before the run's first".to_owned(),
+            Ok(read) if !read.state.is_finite() => "has coordinates that are no numbers".to_owned(),
+            Ok(read) => match read.state.check(scene) {
+                Ok(()) => return Ok(Some(read)),
+                Err(wrong) => wrong,
+            },
             Err(wrong) => wrong,
         };
         progress.warn(&format!("{} {wrong}; looking for one before it", path.display()));

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use serde_json::json;
 
-use super::bodies::MOST_PARTICLES;
+use super::allowance::MOST_PARTICLES;
 use super::model::{Dashpot, Integrator, Render, Wall};
 use super::{
     Coloring, Contact, Dimensions, Domain, Grains, Matter, Neighbors, Particles, Scene, Time, column,
@@ -13,8 +13,10 @@ use crate::error::{Error, Result};
 /// Search radii, in the points' unit: their squares stay far inside f32.
 const SMALLEST_RADIUS: f64 = 1e-15;
 const LARGEST_RADIUS: f64 = 1e15;
-/// Coordinates are rounded to f32 around the center; a search notes it when that is more than this share of its radius.
-const TELLING_ROUNDING: f64 = 1e-4;
+/// Coordinates are rounded to f32 around the center; a search notes it when that is more than this share of its radius, and
+/// is refused when it is more than the other.
+const TELLING_ROUNDING: f64 = 1e-6;
+const MOST_ROUNDING: f64 = 1e-3;
 
 impl Scene {
     /// Points at rest and the search for all pairs nearer than `search_radius`; ids are 0, 1, 2, … in their order.
@@ -48,7 +50,22 @@ impl Scene {
         }
 
         let mut notes = Vec::new();
-        let rounding = f64::from(f32::EPSILON) / 2.0 * f64::from(max.max_element());
+        // Nothing is lost of coordinates that f32 holds.
+        let lost = |p: &DVec3| {
+            let local = flat(p) - origin;
+            (local - local.as_vec3().as_dvec3()).abs().max_element()
+        };
+        let rounding = points.iter().map(lost).fold(0.0, f64::max);
+        if rounding > MOST_ROUNDING * search_radius {
+            return Err(Error::usage(
+                format!(
+                    "the points lie so far apart for their search radius that f32 rounds their coordinates by up to {:.1e} \
+                     of it, and counts would be wrong",
+                    rounding / search_radius
+                ),
+                "search each cluster by itself, or take a larger radius",
+            ));
+        }
         if rounding > TELLING_ROUNDING * search_radius {
             notes.push(format!(
                 "coordinates are rounded to f32 around the center of the points, here by up to {:.1e} of the search \

@@ -13,8 +13,10 @@ use splashsurf_lib::nalgebra::Vector3;
 use splashsurf_lib::{Parameters, reconstruct_surface};
 
 use super::bar::Bar;
+use super::folder::is_surface;
 use super::{disk, interrupt};
 use crate::error::{Error, Result};
+use crate::files;
 use crate::scene::Dimensions;
 use crate::scene::particle_file;
 
@@ -70,6 +72,14 @@ pub fn make_surfaces(recorded: &Sequence, out: &Path, settings: &SurfaceSettings
         return Err(Error::usage(
             format!("{} has {there} of these surfaces already", out.display()),
             "replace them with --force, or choose another folder with --out",
+        ));
+    }
+    let targets = recorded.frames.iter().map(|(frame, _)| target(*frame));
+    let mut there = targets.filter(|path| path.exists() || files::is_link(path));
+    if let Some(other) = there.find(|path| !is_surface(path)) {
+        return Err(Error::usage(
+            format!("{} is no surface that Sliceflow has written", other.display()),
+            "move it to another place, or choose another folder with --out",
         ));
     }
     std::fs::create_dir_all(out).map_err(|reason| disk::failed(out, "create", reason))?;
