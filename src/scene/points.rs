@@ -56,12 +56,14 @@ impl Scene {
             (local - local.as_vec3().as_dvec3()).abs().max_element()
         };
         let rounding = points.iter().map(lost).fold(0.0, f64::max);
-        if rounding > MOST_ROUNDING * search_radius {
+        // So wide, not even voxels could be told apart.
+        let is_too_wide = f64::from(max.max_element() * f32::EPSILON) > search_radius;
+        if rounding > MOST_ROUNDING * search_radius || is_too_wide {
             return Err(Error::usage(
                 format!(
-                    "the points lie so far apart for their search radius that f32 rounds their coordinates by up to {:.1e} \
-                     of it, and counts would be wrong",
-                    rounding / search_radius
+                    "the points lie too far apart for f32: it rounds coordinates so far from their center by up to {:.1e} of \
+                     the search radius, and counts would be wrong",
+                    f64::from(max.max_element() * f32::EPSILON / 2.0) / search_radius
                 ),
                 "search each cluster by itself, or take a larger radius",
             ));
@@ -222,8 +224,22 @@ mod tests {
 
     #[test]
     fn rounding_that_matters_is_noted() {
-        let points = [DVec3::ZERO, DVec3::X * 1e5];
-        assert_eq!(of(&points, Dimensions::Three, 1.0).unwrap().notes.len(), 1);
+        let notes = |x: f64| {
+            let points = [DVec3::ZERO, DVec3::new(0.3, 0.0, 0.0), DVec3::X * x];
+            of(&points, Dimensions::Three, 1.0).map(|scene| scene.notes.len())
+        };
+        assert_eq!(notes(0.5).unwrap(), 0);
+        assert_eq!(notes(1e4).unwrap(), 1);
+        for far in [1e5, 1e8] {
+            let told = notes(far).unwrap_err().to_string();
+            assert!(
+                told.contains("too far apart") && told.contains("by itself"),
+                "{told}"
+            );
+        }
+        // f32 holds these, and loses nothing.
+        let whole = [DVec3::ZERO, DVec3::X * 1e5];
+        assert!(of(&whole, Dimensions::Three, 1.0).unwrap().notes.is_empty());
     }
 
     #[test]

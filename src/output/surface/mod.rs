@@ -23,6 +23,9 @@ use crate::scene::particle_file;
 pub use mesh_file::{MESH_FORMATS, MeshFormat};
 pub use sequence::Sequence;
 
+/// Cubes along a side of all particles.
+const MOST_CUBES: f64 = 1e6;
+
 /// How a surface is made. Lengths are in particle radii, as splashsurf counts them.
 #[derive(Debug, Clone)]
 pub struct SurfaceSettings {
@@ -63,6 +66,16 @@ struct SurfaceMesh {
 /// Makes a mesh of each frame that has particle files. Ends early, with what is done, after Ctrl-C.
 pub fn make_surfaces(recorded: &Sequence, out: &Path, settings: &SurfaceSettings) -> Result<Made> {
     let target = |frame: u32| out.join(format!("surface_{frame:06}.{}", settings.format.name));
+    let reach = 2.0 * settings.smoothing_length;
+    if settings.cube_size > reach {
+        return Err(Error::usage(
+            format!(
+                "cubes of {} radii are larger than what the kernel reaches, {reach} radii",
+                settings.cube_size
+            ),
+            "make --cube-size smaller, or --smoothing-length larger",
+        ));
+    }
     let there = recorded
         .frames
         .iter()
@@ -152,6 +165,16 @@ fn surface(file: &Path, recorded: f64, settings: &SurfaceSettings) -> Result<Opt
         .map(|p| Vector3::from((*p - origin).as_vec3().to_array()))
         .collect();
     let radius = settings.radius.unwrap_or(recorded) as f32;
+    let extent = local.iter().flatten().copied().fold(0.0, f32::max);
+    let cubes = f64::from(extent) / (settings.cube_size * f64::from(radius));
+    if !(cubes <= MOST_CUBES) {
+        return Err(Error::file(
+            file,
+            "make a surface of",
+            format!("{cubes:.1e} cubes would stand along one side"),
+            format!("make cubes larger with --cube-size or --radius: at most {MOST_CUBES:e} along a side"),
+        ));
+    }
     let mut parameters = Parameters::new_relative(
         radius,
         2.0 * settings.smoothing_length as f32,

@@ -371,9 +371,13 @@ fn claim(output: &VideoOutput) -> Result<File> {
     }
 }
 
-/// The half-written file, which is there already, to encode into.
+/// The half-written file, which is there already in a run, to encode into.
 fn create(path: &Path) -> Result<std::io::BufWriter<File>> {
-    let file = OpenOptions::new().write(true).truncate(true).open(path);
+    let file = OpenOptions::new()
+        .write(true)
+        .create(true)
+        .truncate(true)
+        .open(path);
     let file = file.map_err(|reason| disk::failed(path, "create", reason))?;
     Ok(std::io::BufWriter::new(file))
 }

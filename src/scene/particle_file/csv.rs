@@ -60,7 +60,17 @@ pub fn read(path: &Path) -> Result<Table, String> {
         let known = cells.iter().zip(&places).filter(|(_, place)| place.is_some());
         for ((cell, _), (column, values)) in known.zip(&mut columns) {
             values.push(cell.parse().map_err(|_| {
-                format!("{name}, line {number}: {column} is not a number; write it like 0.25")
+                // The file may be somebody's secret, which one short word of it is not.
+                let is_short = cell.len() <= 12
+                    && cell
+                        .chars()
+                        .all(|c| c.is_ascii_alphanumeric() || "+-. ".contains(c));
+                let quoted = if is_short {
+                    format!("{cell:?}, which is ")
+                } else {
+                    String::new()
+                };
+                format!("{name}, line {number}: {column} is {quoted}not a number; write it like 0.25")
             })?);
         }
         numbers.push(number);
