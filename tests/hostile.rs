@@ -339,6 +339,21 @@ fn links_in_a_run_folder_lead_nowhere() {
     }
 }
 
+#[test]
+fn frames_that_are_gone_are_told() {
+    let place = Place::new();
+    place.told(&mut place.run("run", &["--frames", "3"]), 0);
+    fs::remove_file(place.path("run/frame_000001.png")).unwrap();
+    fs::remove_dir_all(place.path("run/particles_000000")).unwrap();
+    for frames in ["3", "4"] {
+        let told = place.told(&mut place.sliceflow(&["resume", "run", "--frames", frames]), 0);
+        assert!(
+            told.contains("2 files of frames") && told.contains("particles_000000"),
+            "{told}"
+        );
+    }
+}
+
 /// Arguments that a stranger has recorded do not replace files outside of the run's folder.
 #[test]
 fn recorded_arguments_replace_nothing_outside() {

@@ -1,6 +1,7 @@
 //! Runs that go on: the same run behind its newest checkpoint, or a variant from one of its frames.
 
-use std::path::Path;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde_json::Value;
@@ -13,8 +14,9 @@ use super::interrupt;
 use super::progress::Progress;
 use super::rerun::Target;
 use super::rewind::checkpoints;
-use super::run::Settings;
+use super::run::{Outputs, Settings};
 use super::stopping::Stopping;
+use super::text::count;
 use crate::error::{Error, Result};
 use crate::files;
 use crate::plan::{Plan, Wanted};
@@ -41,6 +43,9 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
             format!("the run has made {made} frames already, and {frames} are asked for"),
             "ask for more, or begin a new run",
         ));
+    }
+    if let Some(warning) = lost(&folder, &settings.outputs, first..made) {
+        progress.warn(&warning);
     }
     if recorded.status == "finished" && frames == first.saturating_add(recorded.frames_done) {
         progress.note(&format!(
@@ -172,6 +177,39 @@ fn part_from(
         ));
     }
     part
+}
+
+/// Files of frames that the run has made and that are there no longer, in words.
+fn lost(folder: &Folder, outputs: &Outputs, frames: Range<u32>) -> Option<String> {
+    let mut lost: Vec<PathBuf> = Vec::new();
+    for frame in frames {
+        if outputs.pictures {
+            lost.push(folder.picture(frame));
+        }
+        if let Some(particles) = outputs
+            .particles
+            .as_ref()
+            .filter(|p| frame.is_multiple_of(p.every))
+        {
+            let stem = folder.particles(frame);
+            lost.extend(
+                particles
+                    .formats
+                    .iter()
+                    .map(|format| match Path::new(format.file).extension() {
+                        Some(ending) if format.is_points => stem.with_extension(ending),
+                        _ => stem.clone(),
+                    }),
+            );
+        }
+    }
+    lost.retain(|path| !path.exists());
+    let first = lost.first()?.file_name()?.display().to_string();
+    Some(format!(
+        "{} files of frames that the run has made are gone, the first of them {first}: they stay away; `sliceflow render` \
+         draws pictures again where particle files or checkpoints are, and a new run makes all of them",
+        count(lost.len() as u64)
+    ))
 }
 
 /// Refuses to replace files outside of the run's folder unless told to: whoever wrote down the run's arguments may not be

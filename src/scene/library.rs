@@ -42,6 +42,11 @@ pub fn find(name: &str) -> Option<&'static str> {
     SCENES.get_file(format!("{name}.json"))?.contents_utf8()
 }
 
+/// Whether a scene that ships has this text, to the letter.
+pub fn ships(text: &str) -> bool {
+    SCENES.files().any(|file| file.contents() == text.as_bytes())
+}
+
 /// A mesh that ships.
 #[derive(Debug, Clone)]
 pub struct Mesh {

@@ -41,6 +41,11 @@ pub fn load_within(path: &Path, overrides: &[String], allowance: &Allowance) -> 
             )
         })?;
         let folder = path.parent().unwrap_or(Path::new(""));
+        let allowance = &Allowance {
+            // A copy of one that ships is as good.
+            folders: allowance.folders.clone().filter(|_| !library::ships(&text)),
+            ..allowance.clone()
+        };
         return parse_within(&text, &path.display().to_string(), folder, overrides, allowance);
     }
     let name = path.to_string_lossy();
