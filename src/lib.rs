@@ -19,7 +19,8 @@
 //! - `src/scene/`: what a user writes (`src/scene/model.rs`), checked against its own schema (`src/scene/check.rs`),
 //!   explained key by key (`src/scene/keys.rs`), made into numbers (`src/scene/validate.rs`); shapes, meshes and files
 //!   become particles. Points alone are a scene without physics (`src/scene/points.rs`). What a particle has is a row of
-//!   `src/scene/field.rs`, what events may change a row of `src/scene/changes.rs`.
+//!   `src/scene/field.rs`, what events may change a row of `src/scene/changes.rs`. How many particles, how much memory and which
+//!   files a scene may ask for (`src/scene/allowance.rs`) is settled before anything is made of it.
 //! - `src/gpu/`: the only user of wgpu. Shaders are composed (`src/gpu/compose.rs`) and reflected
 //!   (`src/gpu/reflect.rs`); a pass binds buffers by the name that they have everywhere (`src/gpu/pass.rs`).
 //! - `src/neighbors/`: neighbor search = `src/neighbors/addressing.rs` × `src/neighbors/storage.rs`.
@@ -36,7 +37,8 @@
 //! - `src/simulation/`: executes a plan: steps, frames, what comes back. Grids that need more room get it
 //!   (`src/simulation/reallocation.rs`); steps with lists are recorded in rounds (`src/simulation/rounds.rs`).
 //! - `src/output/`: sinks, each fed by bounded threads, and the run that drives them (`src/output/drive.rs`); its
-//!   checkpoints, and how it goes on from them (`src/output/resume.rs`); recordings for the Rerun viewer
+//!   checkpoints, and how it goes on from them (`src/output/resume.rs`); which files of a folder are a run's own
+//!   (`src/output/record.rs`); recordings for the Rerun viewer
 //!   (`src/output/rerun.rs`). What sensors found, as tables and charts (`src/output/sensors.rs`), also afterwards from
 //!   particle files (`src/output/sensors/from_files.rs`).
 //! - `src/study/`: what the papers measured, measured again, a page each; errors against theory and experiment, beside

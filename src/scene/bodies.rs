@@ -54,7 +54,7 @@ pub fn fill(
             .iter()
             .map(|p| p.abs().max_element())
             .fold(0.0, f64::max);
-        if !(farthest <= LARGEST_COORDINATE) {
+        if farthest > LARGEST_COORDINATE {
             report.problem(
                 &path,
                 format!("a particle lies {} m from the domain's center", number(farthest)),

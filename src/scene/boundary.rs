@@ -134,7 +134,6 @@ fn domain_sides(
     };
     let all: f64 = (0..3).map(|axis| (last[axis] - first[axis]) as f64).product();
     let inside: f64 = cells.iter().map(|count| count.map_or(1.0, f64::round)).product();
-    // Points in a row along x that lies between the other sides are the ends of the row alone.
     let help = "make the domain smaller, or fluid.spacing larger; sides that are `planes` take none";
     if !report.room_for(
         "domain.sides",
@@ -145,21 +144,26 @@ fn domain_sides(
     ) {
         return;
     }
-    for y in first[1]..last[1] {
-        for z in first[2]..last[2] {
-            let is_between = [(1, y), (2, z)]
-                .iter()
-                .all(|&(axis, tick)| beyond(axis, tick).is_none());
-            let mut row = first[0]..last[0];
-            while let Some(x) = row.next() {
+    // Ticks along an axis; where there is nothing to find between the sides, those beyond them alone.
+    let ticks = |axis: usize, all: bool| {
+        let end = cells[axis].map_or(last[axis], |count| (count - 0.5).ceil() as i64);
+        let (low, high) = if all {
+            (first[axis]..end, end..last[axis])
+        } else {
+            (first[axis]..0, end..last[axis])
+        };
+        low.chain(high)
+    };
+    let is_between = |axis: usize, tick: i64| beyond(axis, tick).is_none();
+    let has_sides = |axis: usize| ticks(axis, false).next().is_some();
+    for y in ticks(1, has_sides(0) || has_sides(2)) {
+        for z in ticks(2, has_sides(0) || !is_between(1, y)) {
+            for x in ticks(0, !is_between(1, y) || !is_between(2, z)) {
                 let tick = [x, y, z];
                 let sides: Vec<(usize, usize)> = (0..3)
                     .filter_map(|axis| beyond(axis, tick[axis]).map(|end| (axis, end)))
                     .collect();
                 if sides.is_empty() {
-                    if is_between && let Some(count) = cells[0] {
-                        row.start = row.start.max((count - 0.5).ceil() as i64);
-                    }
                     continue;
                 }
                 let point = DVec3::from([0, 1, 2].map(|axis| place(axis, tick[axis])));

@@ -39,7 +39,7 @@ impl Report {
     /// `says` comes before their number and `what` behind it; `help` says how to make them fewer.
     pub fn room_for(&mut self, path: &str, says: &str, count: f64, what: &str, help: &str) -> bool {
         let most = self.allowance.particles;
-        if !(count <= most as f64) {
+        if count > most as f64 || count.is_nan() {
             self.problem(
                 path,
                 format!("{says} {} {what}", number(count)),
@@ -54,7 +54,7 @@ impl Report {
     /// Whether so many bytes of memory may be taken, which are then counted; a problem at `path` where not.
     pub fn memory_for(&mut self, path: &str, says: &str, bytes: f64, help: &str) -> bool {
         let (all, most) = (self.taken + bytes, self.allowance.memory as f64);
-        if !(all <= most) {
+        if all > most || all.is_nan() {
             self.problem(
                 path,
                 format!(

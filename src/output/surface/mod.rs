@@ -167,7 +167,7 @@ fn surface(file: &Path, recorded: f64, settings: &SurfaceSettings) -> Result<Opt
     let radius = settings.radius.unwrap_or(recorded) as f32;
     let extent = local.iter().flatten().copied().fold(0.0, f32::max);
     let cubes = f64::from(extent) / (settings.cube_size * f64::from(radius));
-    if !(cubes <= MOST_CUBES) {
+    if cubes > MOST_CUBES || cubes.is_nan() {
         return Err(Error::file(
             file,
             "make a surface of",
