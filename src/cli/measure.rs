@@ -1,6 +1,6 @@
 //! `sliceflow measure`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::quiet_args::QuietArgs;
 use super::stdout;
@@ -74,7 +74,7 @@ pub fn main(args: &Args) -> Result<()> {
 }
 
 /// The list of sensors in a file, as JSON on one line.
-fn sensors(path: &PathBuf) -> Result<String> {
+fn sensors(path: &Path) -> Result<String> {
     let text = files::read_text(path)
         .map_err(|reason| Error::file(path, "read", reason, "give a JSON file with a list of sensors"))?;
     let value = load::json(&text).map_err(|problem| Error::Scene {
