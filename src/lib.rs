@@ -15,10 +15,12 @@
 //! Imports point one way: a room uses those above it in this list, never those below.
 //!
 //! - `src/error.rs`: the one error type; every message says what to do next.
+//! - `src/files.rs`: files that others name: none that never ends is read, nothing is written through a link.
 //! - `src/scene/`: what a user writes (`src/scene/model.rs`), checked against its own schema (`src/scene/check.rs`),
 //!   explained key by key (`src/scene/keys.rs`), made into numbers (`src/scene/validate.rs`); shapes, meshes and files
 //!   become particles. Points alone are a scene without physics (`src/scene/points.rs`). What a particle has is a row of
-//!   `src/scene/field.rs`, what events may change a row of `src/scene/changes.rs`.
+//!   `src/scene/field.rs`, what events may change a row of `src/scene/changes.rs`. How many particles, how much memory and which
+//!   files a scene may ask for (`src/scene/allowance.rs`) is settled before anything is made of it.
 //! - `src/gpu/`: the only user of wgpu. Shaders are composed (`src/gpu/compose.rs`) and reflected
 //!   (`src/gpu/reflect.rs`); a pass binds buffers by the name that they have everywhere (`src/gpu/pass.rs`).
 //! - `src/neighbors/`: neighbor search = `src/neighbors/addressing.rs` × `src/neighbors/storage.rs`.
@@ -35,7 +37,8 @@
 //! - `src/simulation/`: executes a plan: steps, frames, what comes back. Grids that need more room get it
 //!   (`src/simulation/reallocation.rs`); steps with lists are recorded in rounds (`src/simulation/rounds.rs`).
 //! - `src/output/`: sinks, each fed by bounded threads, and the run that drives them (`src/output/drive.rs`); its
-//!   checkpoints, and how it goes on from them (`src/output/resume.rs`); recordings for the Rerun viewer
+//!   checkpoints, and how it goes on from them (`src/output/resume.rs`); which files of a folder are a run's own
+//!   (`src/output/record.rs`); recordings for the Rerun viewer
 //!   (`src/output/rerun.rs`). What sensors found, as tables and charts (`src/output/sensors.rs`), also afterwards from
 //!   particle files (`src/output/sensors/from_files.rs`).
 //! - `src/study/`: what the papers measured, measured again, a page each; errors against theory and experiment, beside
@@ -113,6 +116,7 @@
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod error;
+mod files;
 pub mod gpu;
 pub mod neighbors;
 pub mod output;

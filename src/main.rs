@@ -2,6 +2,7 @@ use std::io::Write as _;
 use std::process::ExitCode;
 
 use sliceflow::error::Error;
+use sliceflow::output::text::printable;
 
 fn main() -> ExitCode {
     quiet_display_layer();
@@ -14,7 +15,8 @@ fn main() -> ExitCode {
         "error: "
     };
     // Where nobody reads standard error, the exit status still tells.
-    let _ = writeln!(std::io::stderr(), "{label}{error}");
+    let message = format!("{label}{error}");
+    let _ = writeln!(std::io::stderr(), "{}", printable(&message));
     ExitCode::from(error.exit_code())
 }
 

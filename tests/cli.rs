@@ -313,31 +313,60 @@ fn a_run_writes_frames_statistics_particles_and_a_manifest() {
 fn an_earlier_run_is_replaced_only_with_force() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().to_str().unwrap();
-    fs::write(folder.path().join("notes.txt"), "mine").unwrap();
-    for old in ["frame_000000.png", "frame_000007.png"] {
-        fs::write(folder.path().join(old), "old").unwrap();
+    let first = [
+        "run",
+        "column_2d",
+        "--out",
+        out,
+        "--frames",
+        "3",
+        "--fps",
+        "1000",
+        "--size",
+        "80x60",
+    ];
+    sliceflow(&first).assert().success();
+    for mine in ["notes.txt", "frame_000007.png"] {
+        fs::write(folder.path().join(mine), "mine").unwrap();
     }
+    let old = fs::read(folder.path().join("frame_000000.png")).unwrap();
     let message = failure(&short_run(out, &[]), 2);
     assert!(
-        message.contains("2 frames") && message.contains("--force"),
+        message.contains("3 frames") && message.contains("--force"),
         "{message}"
     );
-    assert_eq!(
-        fs::read_to_string(folder.path().join("frame_000000.png")).unwrap(),
-        "old"
-    );
+    assert_eq!(fs::read(folder.path().join("frame_000000.png")).unwrap(), old);
 
-    let assert = sliceflow(&short_run(out, &["--force"])).assert().success();
-    assert!(String::from_utf8_lossy(&assert.get_output().stderr).contains("removed"));
+    let fewer = [
+        "run",
+        "column_2d",
+        "--out",
+        out,
+        "--frames",
+        "2",
+        "--fps",
+        "1000",
+        "--force",
+    ];
+    let assert = sliceflow(&fewer).assert().success();
+    let told = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
     assert!(
-        !folder.path().join("frame_000007.png").exists(),
+        told.contains("removed") && told.contains("frame_000007.png"),
+        "{told}"
+    );
+    assert!(
+        !folder.path().join("frame_000002.png").exists(),
         "beyond the new run's frames"
+    );
+    assert!(
+        folder.path().join("frame_000007.png").exists(),
+        "no run has recorded it"
     );
     assert_eq!(
         fs::read_to_string(folder.path().join("notes.txt")).unwrap(),
         "mine"
     );
-    image::open(folder.path().join("frame_000000.png")).unwrap();
+    assert_ne!(fs::read(folder.path().join("frame_000000.png")).unwrap(), old);
 }
 
 #[cfg(unix)]

@@ -116,6 +116,10 @@ fn a_run_becomes_surfaces() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let mut run = sliceflow(&["run", SCENE_3D, "--frames", "3", "--fps", "100", "--no-pictures"]);
+    run.args([
+        "--allow-read",
+        concat!(env!("CARGO_MANIFEST_DIR"), "/assets/meshes"),
+    ]);
     run.args(["--particles", "bgeo", "--particles-every", "2", "--out"])
         .arg(&out);
     run.assert().success();

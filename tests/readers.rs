@@ -49,7 +49,17 @@ const SCENE_3D: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/common/scene_
 
 #[test]
 fn particle_files_are_what_the_arrays_say() {
-    let all = ["--particles", "ply,vtk,bgeo,npy", "--frames", "5", "--fps", "250"];
+    let meshes = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/meshes");
+    let all = [
+        "--particles",
+        "ply,vtk,bgeo,npy",
+        "--frames",
+        "5",
+        "--fps",
+        "250",
+        "--allow-read",
+        meshes,
+    ];
     for (scene, every, frames) in [
         ("column_2d", "2", &["0", "2", "4"][..]),
         (SCENE_3D, "4", &["0", "4"]),

@@ -134,7 +134,7 @@ fn a_damaged_checkpoint_is_told_and_the_one_before_it_is_used() {
     fs::write(&newest, &bytes).unwrap();
     fs::write(place.path("run/checkpoint_000020.bin"), "").unwrap();
     fs::remove_file(place.path("run/frame_000018.png")).unwrap();
-    fs::write(place.path("run/frame_000030.png.part"), "half").unwrap();
+    fs::write(place.path("run/frame_000020.png.part"), "half").unwrap();
 
     let told = place.told(&mut place.sliceflow(&["resume", "run"]), 0);
     assert!(told.contains("checkpoint_000024.bin is damaged"), "{told}");

@@ -3,11 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use super::quiet_args::QuietArgs;
+use super::scene_args::bytes;
 use super::stdout;
 use crate::error::{Error, Result};
 use crate::output::text::count;
 use crate::output::write_file;
-use crate::scene::import::import;
+use crate::scene::allowance::Allowance;
+use crate::scene::import::import_within;
 
 /// Makes a scene from a scene file of SPlisHSPlasH
 ///
@@ -25,6 +27,9 @@ pub struct Args {
     /// Replaces that file where it is there
     #[arg(long, requires = "out")]
     force: bool,
+    /// Refuses scenes that need more memory for particles and meshes
+    #[arg(long, value_name = "SIZE", default_value = "1GB", value_parser = bytes)]
+    max_memory: u64,
     #[command(flatten)]
     quiet: QuietArgs,
 }
@@ -46,7 +51,25 @@ pub fn main(args: &Args) -> Result<()> {
             "replace it with --force, or give --out another name",
         ));
     }
-    let imported = import(&args.scene, folder)?;
+    let allowance = Allowance {
+        memory: args.max_memory,
+        ..Allowance::default()
+    };
+    let imported = import_within(&args.scene, folder, &allowance)?;
+    let own = Allowance {
+        folders: Some(Vec::new()),
+        ..allowance
+    };
+    let base = folder.unwrap_or(Path::new("."));
+    for file in imported.scene.file.files() {
+        let path = base.join(file);
+        if !own.reads(&path, base) {
+            let outside = path.parent().unwrap_or(base).display();
+            args.quiet.tell(&format!(
+                "note: the scene reads {file} outside of its own folder: run it with --allow-read {outside}"
+            ));
+        }
+    }
     for note in &imported.notes {
         args.quiet.tell(&format!("note: {note}"));
     }
@@ -64,6 +87,6 @@ pub fn main(args: &Args) -> Result<()> {
     ));
     match &args.out {
         Some(out) => write_file(out, text.as_bytes()),
-        None => stdout::print(&text),
+        None => stdout::print_json(&imported.json),
     }
 }

@@ -1,10 +1,11 @@
 //! `sliceflow measure`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::quiet_args::QuietArgs;
 use super::stdout;
 use crate::error::{Error, Result};
+use crate::files;
 use crate::output::{Recorded, measure_files};
 use crate::scene::load;
 
@@ -73,8 +74,8 @@ pub fn main(args: &Args) -> Result<()> {
 }
 
 /// The list of sensors in a file, as JSON on one line.
-fn sensors(path: &PathBuf) -> Result<String> {
-    let text = std::fs::read_to_string(path)
+fn sensors(path: &Path) -> Result<String> {
+    let text = files::read_text(path)
         .map_err(|reason| Error::file(path, "read", reason, "give a JSON file with a list of sensors"))?;
     let value = load::json(&text).map_err(|problem| Error::Scene {
         file: path.display().to_string(),

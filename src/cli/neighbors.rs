@@ -15,7 +15,7 @@ use crate::error::{Error, Result};
 use crate::gpu::timing::median;
 use crate::gpu::{Gpu, Variant, device};
 use crate::neighbors;
-use crate::output::text::{bytes, count};
+use crate::output::text::{bytes, count, printable};
 use crate::plan::{Plan, Wanted};
 use crate::scene::{Dimensions, Neighbors, Scene, particle_file};
 use crate::simulation::{NeighborLists, Simulation};
@@ -95,7 +95,7 @@ pub fn main(args: &Args) -> Result<()> {
     let adapter = args.device.adapter();
     let scene = scene(args, choice)?;
     for note in &scene.notes {
-        eprintln!("note: {note}");
+        eprintln!("note: {}", printable(note));
     }
     let gpu = Gpu::open(&adapter, false)?;
     let name = device::describe(&gpu.adapter);

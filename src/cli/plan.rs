@@ -40,6 +40,9 @@ pub struct Args {
     json: bool,
 }
 
+/// What a scene may take while it is only looked at, bytes, unless the user allows more: an answer comes within seconds.
+pub const MEMORY: u64 = 500_000_000;
+
 const EXAMPLES: &str = "\
 Examples:
   sliceflow plan green_cube
@@ -49,7 +52,7 @@ Examples:
   sliceflow plan my_scene.json --json | jq '.plan.buffers[].name'";
 
 pub fn main(args: &Args) -> Result<()> {
-    let scene = args.run.load()?;
+    let scene = args.run.load((!args.measure).then_some(MEMORY))?;
     if let Some(proposal) = args.error.proposal(&scene)? {
         return match args.json {
             true => stdout::print_json(&proposal.json()),

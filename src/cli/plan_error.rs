@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use crate::error::{Error, Result};
+use crate::files;
 use crate::output::text::{count, metres};
 use crate::plan::achieved::{Achieved, Advice, KINDS, percent};
 use crate::scene::{Scene, load};
@@ -49,7 +50,7 @@ impl ErrorArgs {
 
 fn read(path: &Path) -> Result<Achieved> {
     let help = "give the `achieved.json` that `sliceflow study speed-error` wrote beside its page";
-    let text = std::fs::read_to_string(path).map_err(|reason| Error::file(path, "read", reason, help))?;
+    let text = files::read_text(path).map_err(|reason| Error::file(path, "read", reason, help))?;
     serde_json::from_str(&text).map_err(|reason| Error::file(path, "read", reason, help))
 }
 

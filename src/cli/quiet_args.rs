@@ -1,6 +1,7 @@
 //! The argument of every command that tells what it does.
 
 use crate::output::progress::Style;
+use crate::output::text::printable;
 
 #[derive(clap::Args, Clone, Copy)]
 pub struct QuietArgs {
@@ -23,7 +24,7 @@ impl QuietArgs {
     /// Tells something on standard error, unless nobody wants to know.
     pub fn tell(self, text: &str) {
         if !self.quiet {
-            eprintln!("{text}");
+            eprintln!("{}", printable(text));
         }
     }
 }

@@ -75,7 +75,7 @@ pub fn main(args: &Args) -> Result<()> {
             ..Default::default()
         },
     };
-    let settings = args.sitting.settings(folder, args.force, outputs, false);
+    let settings = args.sitting.settings(folder, args.force, outputs, false)?;
     output::redraw(
         &recorded,
         &overrides,

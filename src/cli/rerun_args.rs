@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::output::rerun::{DEFAULT_BUDGET, Settings, Target};
+use super::scene_args::bytes;
+use crate::output::rerun::{Settings, Target};
 
 /// Where a viewer on this machine listens.
 const VIEWER_HERE: &str = "127.0.0.1:9876";
@@ -23,7 +24,7 @@ pub struct RerunArgs {
     #[arg(long, help_heading = HEADING)]
     rerun_serve: bool,
     /// Most bytes of a recording; where more is there, fewer particles, pictures and frames are recorded, and a note says so
-    #[arg(long, value_name = "SIZE", default_value = "500MB", value_parser = size, help_heading = HEADING)]
+    #[arg(long, value_name = "SIZE", default_value = "500MB", value_parser = bytes, help_heading = HEADING)]
     rerun_budget: u64,
 }
 
@@ -64,41 +65,9 @@ fn address(text: &str) -> Result<String, String> {
     }
 }
 
-/// A number of bytes with a unit: 500MB, 2 GB, 64MiB.
-fn size(text: &str) -> Result<u64, String> {
-    let text = text.trim();
-    let unit_at = text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len());
-    let (number, unit) = text.split_at(unit_at);
-    let factor = match unit.to_ascii_lowercase().as_str() {
-        "" | "b" => 1.0,
-        "kb" | "k" => 1e3,
-        "mb" | "m" => 1e6,
-        "gb" | "g" => 1e9,
-        "kib" => 1024.0,
-        "mib" => 1024.0 * 1024.0,
-        "gib" => 1024.0 * 1024.0 * 1024.0,
-        _ => return Err("units are kB, MB, GB, KiB, MiB and GiB: 500MB".into()),
-    };
-    match number.trim().parse::<f64>() {
-        Ok(number) if number > 0.0 && number * factor < 1e15 => Ok((number * factor) as u64),
-        _ => Err(format!("write a size, as in {}MB", DEFAULT_BUDGET / 1_000_000)),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn sizes() {
-        assert_eq!(size("500MB"), Ok(DEFAULT_BUDGET));
-        assert_eq!(size("2 GB"), Ok(2_000_000_000));
-        assert_eq!(size("1.5MiB"), Ok(1_572_864));
-        assert_eq!(size("4096"), Ok(4096));
-        for wrong in ["", "MB", "0", "-1MB", "5 apples", "1e99"] {
-            assert!(size(wrong).is_err(), "{wrong}");
-        }
-    }
 
     #[test]
     fn addresses() {

@@ -32,8 +32,8 @@ pub struct Args {
     /// The variant's folder [default: RUN_at_FRAME]
     #[arg(short, long, value_name = "DIR", requires = "branch_at")]
     out: Option<PathBuf>,
-    /// Replaces an earlier run in the variant's folder
-    #[arg(long, requires = "branch_at")]
+    /// Replaces an earlier run in the variant's folder, or a video or recording outside of the run's folder
+    #[arg(long)]
     force: bool,
     #[command(flatten)]
     checkpoints: CheckpointArgs,
@@ -62,7 +62,7 @@ pub fn main(args: &Args) -> Result<()> {
         (None, Some(frame)) => beside(&args.run, &format!("at_{frame}"))?,
         (None, None) => args.run.clone(),
     };
-    let settings = args.sitting.settings(folder, args.force, outputs, timings);
+    let settings = args.sitting.settings(folder, args.force, outputs, timings)?;
     match args.branch_at {
         Some(frame) => output::branch(&recorded, frame, &overrides, &settings),
         None => output::resume(&recorded, &overrides, &settings),

@@ -46,7 +46,7 @@ Examples:
   sliceflow run green_cube --set grains.restitution=0.9 --set 'gravity=[0,-1.62,0]' --force";
 
 pub fn main(args: &Args) -> Result<()> {
-    let scene = args.run.load()?;
+    let scene = args.run.load(args.dry_run.then_some(plan::MEMORY))?;
     let outputs = args.run.outputs()?;
     if args.dry_run {
         let report = plan::Report::new(&scene, &outputs, &args.sitting.adapter())?;
@@ -56,7 +56,7 @@ pub fn main(args: &Args) -> Result<()> {
         .out
         .clone()
         .unwrap_or_else(|| PathBuf::from("out").join(file_name(&scene.name)));
-    let settings = args.sitting.settings(folder, args.force, outputs, args.timings);
+    let settings = args.sitting.settings(folder, args.force, outputs, args.timings)?;
     output::run(&scene, &settings)
 }
 

@@ -41,8 +41,10 @@ pub struct RunArgs {
 }
 
 impl RunArgs {
-    pub fn load(&self) -> Result<Scene> {
+    /// `memory` is what the scene may take before it runs, bytes, where the user does not say.
+    pub fn load(&self, memory: Option<u64>) -> Result<Scene> {
         self.scene.load(&Choices {
+            memory,
             frames: self.frames,
             grid: self.grid.as_deref(),
             view: self.view.as_deref(),

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::grid;
 use crate::error::Result;
+use crate::files;
+use crate::scene::allowance::{Allowance, MOST_PARTICLES};
 use crate::scene::{Scene, library, load, model, set};
 
 #[derive(clap::Args)]
@@ -23,6 +25,17 @@ pub struct SceneArgs {
     /// Size of pictures, pixels
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<[u32; 2]>,
+    /// Refuses scenes of more particles, boundary particles included
+    #[arg(long, value_name = "N", default_value_t = MOST_PARTICLES, value_parser = clap::value_parser!(u64).range(1..=MOST_PARTICLES))]
+    max_particles: u64,
+    /// Refuses scenes that need more memory before the run, for particles and meshes [default: half of the machine's; of
+    /// `plan` 500MB]
+    #[arg(long, value_name = "SIZE", value_parser = bytes)]
+    max_memory: Option<u64>,
+    /// Lets the scene read files in this folder too; without it, those in its own folder and those that --set names
+    /// (repeatable)
+    #[arg(long, value_name = "DIR")]
+    allow_read: Vec<PathBuf>,
 }
 
 /// Choices that not every command leaves to the user.
@@ -32,11 +45,19 @@ pub struct Choices<'a> {
     pub frames: Option<u32>,
     pub grid: Option<&'a str>,
     pub view: Option<&'a str>,
+    /// Bytes that the scene may take where the user does not say.
+    pub memory: Option<u64>,
 }
 
 impl SceneArgs {
     pub fn load(&self, choices: &Choices) -> Result<Scene> {
-        load::load(&self.scene, &self.overrides(choices)?)
+        let usual = Allowance::default();
+        let allowance = Allowance {
+            particles: self.max_particles,
+            memory: self.max_memory.or(choices.memory).unwrap_or(usual.memory),
+            folders: Some(self.allow_read.clone()),
+        };
+        load::load_within(&self.scene, &self.overrides(choices)?, &allowance)
     }
 
     /// The particle file that stands where a scene is expected.
@@ -75,7 +96,7 @@ impl SceneArgs {
     /// The scene's frames per second before it is checked: a scene counts time in seconds, `--frames` in frames.
     /// Whatever is wrong with the scene is told when it is loaded.
     fn written_fps(&self, overrides: &[String]) -> f64 {
-        let text = match std::fs::read_to_string(&self.scene) {
+        let text = match files::read_text(&self.scene) {
             Ok(text) => text,
             Err(_) => library::find(&self.scene.to_string_lossy())
                 .unwrap_or_default()
@@ -107,6 +128,27 @@ pub fn size(text: &str) -> std::result::Result<[u32; 2], String> {
     }
 }
 
+/// A number of bytes with a unit: 500MB, 2 GB, 64MiB.
+pub fn bytes(text: &str) -> std::result::Result<u64, String> {
+    let text = text.trim();
+    let unit_at = text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len());
+    let (number, unit) = text.split_at(unit_at);
+    let factor = match unit.to_ascii_lowercase().as_str() {
+        "" | "b" => 1.0,
+        "kb" | "k" => 1e3,
+        "mb" | "m" => 1e6,
+        "gb" | "g" => 1e9,
+        "kib" => 1024.0,
+        "mib" => 1024.0 * 1024.0,
+        "gib" => 1024.0 * 1024.0 * 1024.0,
+        _ => return Err("units are kB, MB, GB, KiB, MiB and GiB: 500MB".into()),
+    };
+    match number.trim().parse::<f64>() {
+        Ok(number) if number > 0.0 && number * factor < 1e15 => Ok((number * factor) as u64),
+        _ => Err("write a size, as in 500MB".into()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -118,6 +160,9 @@ mod tests {
             fps: None,
             seed: None,
             size: None,
+            max_particles: MOST_PARTICLES,
+            max_memory: None,
+            allow_read: Vec::new(),
         }
     }
 
@@ -155,6 +200,17 @@ mod tests {
         );
         assert_eq!(grid::name(&scene.neighbors), "sliced-pool");
         assert_eq!(scene.render.view, model::View::Both);
+    }
+
+    #[test]
+    fn bytes_have_units() {
+        assert_eq!(bytes("500MB"), Ok(500_000_000));
+        assert_eq!(bytes("2 GB"), Ok(2_000_000_000));
+        assert_eq!(bytes("1.5MiB"), Ok(1_572_864));
+        assert_eq!(bytes("4096"), Ok(4096));
+        for wrong in ["", "MB", "0", "-1MB", "5 apples", "1e99"] {
+            assert!(bytes(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Arguments of the commands that make frames.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use super::device_args::DeviceArgs;
@@ -24,17 +25,36 @@ impl SittingArgs {
         self.device.adapter()
     }
 
-    pub fn settings(&self, folder: PathBuf, force: bool, outputs: Outputs, timings: bool) -> Settings {
-        Settings {
+    pub fn settings(
+        &self,
+        folder: PathBuf,
+        force: bool,
+        outputs: Outputs,
+        timings: bool,
+    ) -> Result<Settings> {
+        Ok(Settings {
             folder,
             force,
             outputs,
             timings,
             adapter: self.adapter(),
             progress: self.quiet.style(self.progress),
-            command_line: std::env::args().collect(),
-        }
+            command_line: command_line()?,
+        })
     }
+}
+
+/// The program's arguments, which the record of a run keeps.
+fn command_line() -> Result<Vec<String>> {
+    let text = |argument: OsString| {
+        argument.into_string().map_err(|other| {
+            Error::usage(
+                format!("the argument {other:?} is not UTF-8 text, which the run's record needs"),
+                "rename that file or folder, or give a path to it that is text",
+            )
+        })
+    };
+    std::env::args_os().map(text).collect()
 }
 
 /// The folder RUN_SUFFIX beside a run's.

@@ -6,11 +6,15 @@ use std::path::Path;
 use serde_json::Value;
 
 use crate::error::{Error, Result};
+use crate::output::text::printable;
 
-/// Prints text as it is. A reader that has seen enough (`| head`) is no error.
+/// Prints text without control characters. A reader that has seen enough (`| head`) is no error.
 pub fn print(text: &str) -> Result<()> {
     let mut out = stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match out
+        .write_all(printable(text).as_bytes())
+        .and_then(|()| out.flush())
+    {
         Err(reason) if reason.kind() != ErrorKind::BrokenPipe => {
             let place = Path::new("standard output");
             Err(Error::file(
@@ -26,5 +30,10 @@ pub fn print(text: &str) -> Result<()> {
 
 /// Prints JSON for people to read and programs to parse.
 pub fn print_json(value: &Value) -> Result<()> {
-    print(&format!("{value:#}\n"))
+    let mut text = format!("{value:#}\n");
+    // JSON itself escapes those below U+0020 alone.
+    for control in '\u{7f}'..='\u{9f}' {
+        text = text.replace(control, &format!("\\u{:04x}", u32::from(control)));
+    }
+    print(&text)
 }

@@ -90,8 +90,18 @@ impl Buffers {
     ) -> Result<()> {
         if !values.is_empty() {
             let offset = (first * size_of::<T>()) as u64;
-            let bytes = bytemuck::cast_slice(values);
-            gpu.queue.write_buffer(self.get(name, "(host)")?, offset, bytes);
+            let bytes: &[u8] = bytemuck::cast_slice(values);
+            let buffer = self.get(name, "(host)")?;
+            if offset + bytes.len() as u64 > buffer.size() {
+                return Err(Error::Shader {
+                    message: format!(
+                        "{} bytes at byte {offset} do not fit into the {} of the buffer `{name}`",
+                        bytes.len(),
+                        buffer.size()
+                    ),
+                });
+            }
+            gpu.queue.write_buffer(buffer, offset, bytes);
         }
         Ok(())
     }

@@ -12,6 +12,7 @@ use sha2::{Digest, Sha256};
 use super::disk;
 use super::health::Health;
 use crate::error::Result;
+use crate::files;
 use crate::scene::Dimensions;
 use crate::simulation::State;
 
@@ -81,7 +82,7 @@ impl Checkpoint {
 
     /// Reads it back; an error says what is wrong with the file.
     pub fn read(path: &Path) -> std::result::Result<Self, String> {
-        let file = std::fs::read(path).map_err(|reason| format!("cannot be read: {reason}"))?;
+        let file = files::read(path).map_err(|reason| format!("cannot be read: {reason}"))?;
         let end = file.len().checked_sub(CHECKSUM_BYTES).ok_or("is cut off")?;
         let (content, checksum) = file.split_at(end);
         if !content.starts_with(MAGIC) {
@@ -95,12 +96,12 @@ impl Checkpoint {
 
     fn parse(content: &[u8]) -> Option<Self> {
         let (length, rest) = content.split_at_checked(size_of::<u64>())?;
-        let length = u64::from_le_bytes(length.try_into().ok()?) as usize;
+        let length = usize::try_from(u64::from_le_bytes(length.try_into().ok()?)).ok()?;
         let (header, mut rest) = rest.split_at_checked(length)?;
         let header: Header = serde_json::from_slice(header).ok()?;
         let mut buffers = Vec::new();
         for (name, bytes) in header.buffers {
-            let (buffer, behind) = rest.split_at_checked(bytes as usize)?;
+            let (buffer, behind) = rest.split_at_checked(usize::try_from(bytes).ok()?)?;
             buffers.push((name, buffer.to_vec()));
             rest = behind;
         }
@@ -109,7 +110,8 @@ impl Checkpoint {
             particles: header.particles,
             dimensions: match header.dimensions {
                 2 => Dimensions::Two,
-                _ => Dimensions::Three,
+                3 => Dimensions::Three,
+                _ => return None,
             },
             origin: DVec3::from_array(header.origin),
             lists_left_out: header.lists_left_out,

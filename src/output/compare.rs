@@ -9,6 +9,7 @@ use serde_json::Value;
 use super::read_back::{Column, ReadBack};
 use super::rewind::numbered;
 use crate::error::{Error, Result};
+use crate::files;
 
 /// What two runs have in common and in what they differ; A and B are the first and the second.
 #[derive(Debug, Default, Serialize)]
@@ -208,7 +209,7 @@ impl Comparison {
             }
         }
         let read = |path: &Path| {
-            std::fs::read(path).map_err(|reason| Error::file(path, "read", reason, "check that folder"))
+            files::read(path).map_err(|reason| Error::file(path, "read", reason, "check that folder"))
         };
         for (frame, path) in &b {
             if !in_both.contains(frame) {
@@ -227,7 +228,7 @@ impl Comparison {
 /// The lines of a run's statistics; `None` where it has none.
 fn lines(folder: &Path) -> Result<Option<Vec<Value>>> {
     let path = folder.join("stats.jsonl");
-    match std::fs::read_to_string(&path) {
+    match files::read_text(&path) {
         Ok(text) => Ok(Some(
             text.lines()
                 .filter_map(|line| serde_json::from_str(line).ok())

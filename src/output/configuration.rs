@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use crate::error::{Error, Result};
+use crate::files;
 use crate::scene::{Scene, library, load};
 
 /// A run, as it was asked for.
@@ -65,7 +66,7 @@ pub struct Recorded {
 impl Configuration {
     pub fn new(scene: &Scene, arguments: &[String]) -> Result<Self> {
         let written = &scene.written;
-        let ships = library::folder().is_ok_and(|folder| folder == written.folder);
+        let ships = library::folder_for(&written.text).is_ok_and(|folder| folder == written.folder);
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let mut hash = Sha256::new();
         hash.update(&written.text);
@@ -91,7 +92,7 @@ impl Configuration {
     pub fn scene(&self, more: &[String]) -> Result<Scene> {
         let folder = match &self.scene_folder {
             Some(folder) => folder.clone(),
-            None => library::folder()?,
+            None => library::folder_for(&self.scene_text)?,
         };
         let overrides = [self.overrides.as_slice(), more].concat();
         load::parse(&self.scene_text, &self.scene_file, &folder, &overrides)
@@ -117,7 +118,7 @@ impl Recorded {
     /// Reads `run.json` in a run's folder.
     pub fn read(folder: &Path) -> Result<Self> {
         let path = folder.join("run.json");
-        let text = std::fs::read(&path).map_err(|reason| {
+        let text = files::read(&path).map_err(|reason| {
             let help = "give the folder of a run: what `sliceflow run` wrote with --out";
             Error::file(&path, "read", reason, help)
         })?;
@@ -151,7 +152,7 @@ impl Recorded {
 fn inputs(scene: &Scene) -> Result<Vec<Input>> {
     let input = |file: &str| {
         let path = scene.written.folder.join(file);
-        let bytes = std::fs::read(&path)
+        let bytes = files::read(&path)
             .map_err(|reason| Error::file(&path, "read", reason, "put it back where the scene names it"))?;
         Ok(Input {
             file: file.to_owned(),

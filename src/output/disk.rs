@@ -1,16 +1,18 @@
 //! Writing files so that a reader never sees half of one.
 
 use std::ffi::OsString;
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
+use crate::files;
 
 /// Writes a file that appears under its name only when it is whole.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     let partial = partial(path);
-    std::fs::write(&partial, bytes)
+    files::create(&partial)
+        .and_then(|mut file| file.write_all(bytes))
         .and_then(|()| std::fs::rename(&partial, path))
         .map_err(|reason| {
             // The half-written file only takes room; what went wrong is in `reason`.
@@ -23,7 +25,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
 pub fn write_durably(path: &Path, bytes: &[u8]) -> Result<()> {
     let partial = partial(path);
     let write = || {
-        let mut file = File::create(&partial)?;
+        let mut file = files::create(&partial)?;
         file.write_all(bytes)?;
         file.sync_all()?;
         std::fs::rename(&partial, path)?;
@@ -37,6 +39,9 @@ pub fn write_durably(path: &Path, bytes: &[u8]) -> Result<()> {
 
 /// Creates a folder in one that exists; a run's folder that was removed meanwhile is not made anew.
 pub fn create_folder(path: &Path) -> Result<()> {
+    if files::is_link(path) {
+        return Err(failed(path, "create", ErrorKind::NotADirectory.into()));
+    }
     match std::fs::create_dir(path) {
         Err(reason) if reason.kind() != ErrorKind::AlreadyExists => Err(failed(path, "create", reason)),
         _ => Ok(()),
@@ -46,14 +51,13 @@ pub fn create_folder(path: &Path) -> Result<()> {
 /// Waits until a file, or a folder with all its files, is safe from a power cut.
 pub fn sync(path: &Path) -> Result<()> {
     let sync = || {
-        if path.is_dir() {
+        if path.is_dir() && !files::is_link(path) {
             for entry in std::fs::read_dir(path)? {
-                OpenOptions::new().write(true).open(entry?.path())?.sync_all()?;
+                files::sync(&entry?.path())?;
             }
-        } else {
-            OpenOptions::new().write(true).open(path)?.sync_all()?;
+            return Ok(());
         }
-        Ok(())
+        files::sync(path)
     };
     sync().map_err(|reason| failed(path, "save", reason))
 }

@@ -9,10 +9,11 @@ use super::configuration::Configuration;
 use super::folder::Folder;
 use super::forecast::particles;
 use super::health::Health;
-use super::keeper::Keeper;
+use super::keeper::{Every, Keeper};
 use super::manifest::Manifest;
 use super::progress::Progress;
-use super::run::Settings;
+use super::record::Record;
+use super::run::{Settings, checkpoint_files};
 use super::stopping::Stopping;
 use super::tally::Tally;
 use super::text::{bytes, seconds, short};
@@ -73,6 +74,16 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         start,
         wall_s,
     } = launch;
+    let first = configuration.first_frame;
+    let frames = first..=scene.time.frames - 1;
+    let mut files = settings.outputs.files(scene);
+    if configuration.variant_of.is_some() && settings.outputs.checkpoints.every == Every::Never {
+        // Its first one is written whatever was asked for.
+        files.push(checkpoint_files());
+    }
+    if matches!(start, Start::Beginning | Start::With(_)) {
+        folder.check_names(&Record::new(&files, frames.clone()))?;
+    }
     let gpu = open(settings, &progress)?;
     let about = About {
         run_id: configuration.run_id.clone(),
@@ -91,7 +102,6 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
     if let Some(note) = settings.outputs.video.as_ref().and_then(|v| v.note(scene)) {
         progress.note(&note);
     }
-    let first = configuration.first_frame;
     progress.note(&format!(
         "{} frames go to {}, about {}",
         scene.time.frames - first,
@@ -105,12 +115,11 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         simulation.restore(state)?;
     }
 
-    let told = match &start {
+    for told in match &start {
         Start::Beginning | Start::With(_) => folder.clear()?,
         Start::Again => folder.rewind(None)?,
         Start::Behind(checkpoint) => folder.rewind(Some(checkpoint.state.frame))?,
-    };
-    if let Some(told) = told {
+    } {
         progress.note(&told);
     }
     let mut tally = Tally::start(scene.time.frames - first);
@@ -135,7 +144,8 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         &plan,
         simulation.gpu(),
         &settings.command_line,
-        settings.outputs.files(scene),
+        files,
+        frames,
     );
     manifest.configuration = Some(configuration);
     let stopping = Stopping::default();

@@ -1,12 +1,15 @@
 //! The folder of a run: what its files are called, and what an earlier run left there.
 
+use std::collections::BTreeSet;
 use std::fs;
-use std::io;
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
+use super::record::{Record, frame_of, is_like_ours, names};
 use super::text::count;
 use super::{disk, sensors};
 use crate::error::{Error, Result};
+use crate::files;
 
 /// A folder that exists and can be written, by nobody else as long as this lives.
 #[derive(Debug)]
@@ -15,21 +18,23 @@ pub struct Folder {
     _lock: Option<fs::File>,
 }
 
-const PARTICLE_EXTENSIONS: [&str; 3] = [".ply", ".vtp", ".bgeo"];
-
-/// Files that a run writes, found before this one.
+/// Files that a run has written, found before this one, as [`names`] gives them.
 #[derive(Debug, Default)]
 struct Earlier {
-    pictures: Vec<PathBuf>,
-    particles: Vec<PathBuf>,
+    pictures: Vec<String>,
+    particles: Vec<String>,
     /// Folders of NumPy arrays.
-    arrays: Vec<PathBuf>,
-    surfaces: Vec<PathBuf>,
-    checkpoints: Vec<PathBuf>,
+    arrays: BTreeSet<String>,
+    surfaces: Vec<String>,
+    checkpoints: Vec<String>,
     /// Tables and charts of sensors.
-    sensors: Vec<PathBuf>,
+    sensors: Vec<String>,
     /// Manifest, statistics, index.
-    records: Vec<PathBuf>,
+    records: Vec<String>,
+    /// All of these, folders of arrays by their files, with what was left half-written.
+    files: Vec<String>,
+    /// What has a name like these, and no run has recorded.
+    others: Vec<String>,
 }
 
 impl Folder {
@@ -38,7 +43,7 @@ impl Folder {
         fs::create_dir_all(path).map_err(|reason| disk::failed(path, "create", reason))?;
         let folder = Self::existing(path)?;
         let earlier = folder.earlier()?;
-        if !replace && !earlier.is_empty() {
+        if !replace && !earlier.files.is_empty() {
             return Err(Error::usage(
                 format!("{} holds an earlier run ({earlier})", path.display()),
                 "replace it with --force, or choose another folder with --out",
@@ -53,6 +58,7 @@ impl Folder {
             path: path.to_owned(),
             _lock: lock(path)?,
         };
+        folder.refuse_links()?;
         folder.try_writing()?;
         Ok(folder)
     }
@@ -91,135 +97,153 @@ impl Folder {
 
     /// Tables of sensors.
     pub fn sensor_tables(&self) -> Result<Vec<PathBuf>> {
-        let failed = |reason| disk::failed(&self.path, "list", reason);
-        let mut tables = Vec::new();
-        for entry in fs::read_dir(&self.path).map_err(failed)? {
-            let path = entry.map_err(failed)?.path();
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let is_named = name.starts_with("sensor") && name.ends_with(".csv");
-            if is_named && sensors::is_table(&path) {
-                tables.push(path);
-            }
-        }
-        tables.sort();
-        Ok(tables)
+        let is_named = |name: &String| name.starts_with("sensor") && name.ends_with(".csv");
+        let tables = names(&self.path)?.into_iter().filter(is_named);
+        let tables = tables.map(|name| self.path.join(name));
+        Ok(tables.filter(|path| sensors::is_table(path)).collect())
     }
 
     pub fn manifest(&self) -> PathBuf {
         self.path.join("run.json")
     }
 
-    /// Removes what an earlier run left, and nothing else; says what that was.
-    pub fn clear(&self) -> Result<Option<String>> {
+    /// Refuses to replace files that no run has recorded: `coming` are those of the run that is about to begin.
+    pub fn check_names(&self, coming: &Record) -> Result<()> {
+        let earlier = Record::read(&self.path);
+        let mut names = names(&self.path)?.into_iter();
+        match names.find(|name| coming.has(name) && !earlier.has(name)) {
+            None => Ok(()),
+            Some(name) => Err(Error::usage(
+                format!(
+                    "{} would be replaced, and no run in this folder has recorded it as its own",
+                    self.path.join(name).display()
+                ),
+                "move it to another place, or choose another folder with --out",
+            )),
+        }
+    }
+
+    /// Removes what an earlier run has recorded as its own, and nothing else; says what that was, and what of the same
+    /// kind stays.
+    pub fn clear(&self) -> Result<Vec<String>> {
         let earlier = self.earlier()?;
-        if earlier.is_empty() {
-            return Ok(None);
+        let mut told = Vec::new();
+        if !earlier.files.is_empty() {
+            // The record goes last, so that what is left of a removal that was cut off is still known.
+            let (record, files): (Vec<_>, Vec<_>) =
+                earlier.files.iter().partition(|name| *name == "run.json");
+            for name in files {
+                self.remove(name)?;
+            }
+            for folder in &earlier.arrays {
+                self.remove_folder(folder)?;
+            }
+            for name in record {
+                self.remove(name)?;
+            }
+            told.push(format!(
+                "removed an earlier run from {}: {earlier}",
+                self.path.display()
+            ));
         }
-        let files = [
-            &earlier.pictures,
-            &earlier.particles,
-            &earlier.surfaces,
-            &earlier.checkpoints,
-            &earlier.sensors,
-            &earlier.records,
-        ];
-        for file in files.into_iter().flatten() {
-            fs::remove_file(file).map_err(|reason| disk::failed(file, "remove", reason))?;
+        if let Some(first) = earlier.others.first() {
+            told.push(format!(
+                "{} files stay in {}, since no run has recorded them as its own: {first}{}",
+                count(earlier.others.len() as u64),
+                self.path.display(),
+                if earlier.others.len() > 1 { ", …" } else { "" }
+            ));
         }
-        for folder in &earlier.arrays {
-            remove_arrays(folder).map_err(|reason| disk::failed(folder, "remove", reason))?;
+        Ok(told)
+    }
+
+    /// Removes a file of the folder, which it names as [`names`] does.
+    pub fn remove(&self, name: &str) -> Result<()> {
+        let path = self.path.join(name);
+        files::remove(&path).map_err(|reason| disk::failed(&path, "remove", reason))
+    }
+
+    /// Removes a folder of arrays, unless something is left in it.
+    pub fn remove_folder(&self, name: &str) -> Result<()> {
+        let path = self.path.join(name);
+        match fs::remove_dir(&path) {
+            Err(reason) if reason.kind() != io::ErrorKind::DirectoryNotEmpty => {
+                Err(disk::failed(&path, "remove", reason))
+            }
+            _ => Ok(()),
         }
-        Ok(Some(format!(
-            "removed an earlier run from {}: {earlier}",
-            self.path.display()
-        )))
     }
 
     fn earlier(&self) -> Result<Earlier> {
-        let failed = |reason| disk::failed(&self.path, "list", reason);
+        let record = Record::read(&self.path);
         let mut earlier = Earlier::default();
-        let tables = self.sensor_tables()?;
-        let charts = tables.iter().map(|table| table.with_extension("png"));
-        let charts: Vec<PathBuf> = match tables.contains(&self.sensors()) {
-            true => charts
-                .chain(sensors::chart_names().map(|name| self.path.join(name)))
-                .collect(),
-            false => charts.collect(),
-        };
-        for entry in fs::read_dir(&self.path).map_err(failed)? {
-            let path = entry.map_err(failed)?.path();
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let records = [
-                self.manifest(),
-                self.statistics(),
-                Self::index_of_particles(&self.path),
-            ];
-            let is_particles = |extension| numbered(&name, "particles_", extension).is_some();
-            if records.contains(&path) {
-                earlier.records.push(path);
-            } else if tables.contains(&path) || charts.contains(&path) {
-                earlier.sensors.push(path);
-            } else if numbered(&name, "frame_", ".png").is_some() {
-                earlier.pictures.push(path);
-            } else if numbered(&name, "checkpoint_", ".bin").is_some() {
-                earlier.checkpoints.push(path);
-            } else if PARTICLE_EXTENSIONS.into_iter().any(is_particles) {
-                earlier.particles.push(path);
-            } else if [".ply", ".obj"]
-                .iter()
-                .any(|e| numbered(&name, "surface_", e).is_some())
-            {
-                earlier.surfaces.push(path);
-            } else if is_particles("") && path.is_dir() {
-                earlier.arrays.push(path);
+        for name in names(&self.path)? {
+            // Surfaces are made afterwards, so the manifest does not know them; they say themselves whose they are.
+            let is_surface = name.starts_with("surface_") && is_surface(&self.path.join(&name));
+            if !record.has(&name) && !is_surface {
+                if is_like_ours(&name) {
+                    earlier.others.push(name);
+                }
+                continue;
             }
+            earlier.files.push(name.clone());
+            let kind = match name.split(['_', '.']).next() {
+                _ if name.ends_with(".part") => continue,
+                Some("frame") => &mut earlier.pictures,
+                Some("checkpoint") => &mut earlier.checkpoints,
+                Some("surface") => &mut earlier.surfaces,
+                Some("sensor" | "sensors") => &mut earlier.sensors,
+                Some("particles") if frame_of(&name).is_some() => match name.split_once('/') {
+                    Some((folder, _)) => {
+                        earlier.arrays.insert(folder.to_owned());
+                        continue;
+                    }
+                    None => &mut earlier.particles,
+                },
+                _ => &mut earlier.records,
+            };
+            kind.push(name);
         }
         Ok(earlier)
+    }
+
+    /// Refuses a folder in which something that a run writes is a link: its bytes would go to another place.
+    fn refuse_links(&self) -> Result<()> {
+        let mut names = names(&self.path)?.into_iter();
+        let is_ours = |name: &String| is_like_ours(name) || name.ends_with(".part");
+        match names.find(|name| is_ours(name) && files::is_link(&self.path.join(name))) {
+            None => Ok(()),
+            Some(name) => Err(Error::usage(
+                format!(
+                    "{} is a link to another place, and runs neither write nor remove through links",
+                    self.path.join(name).display()
+                ),
+                "remove the link, or put what it leads to in its place",
+            )),
+        }
     }
 
     fn try_writing(&self) -> Result<()> {
         // Always the same file, so that one left by a run that was killed is removed by the next.
         let trial = self.path.join(".sliceflow");
-        let removed = || match fs::remove_file(&trial) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
-            other => other,
-        };
-        fs::write(&trial, b"")
-            .and_then(|()| removed())
+        files::create(&trial)
+            .and_then(|_| files::remove(&trial))
             .map_err(|reason| disk::failed(&self.path, "write into", reason))
-    }
-}
-
-impl Earlier {
-    fn is_empty(&self) -> bool {
-        [
-            &self.pictures,
-            &self.particles,
-            &self.arrays,
-            &self.surfaces,
-            &self.checkpoints,
-            &self.sensors,
-            &self.records,
-        ]
-        .iter()
-        .all(|files| files.is_empty())
     }
 }
 
 impl std::fmt::Display for Earlier {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let counted = |files: &[PathBuf], what: &str| {
-            (!files.is_empty()).then(|| format!("{} {what}", count(files.len() as u64)))
-        };
-        let names = self.records.iter().filter_map(|path| path.file_name()?.to_str());
-        let parts = counted(&self.pictures, "frames")
+        let counted =
+            |files: usize, what: &str| (files > 0).then(|| format!("{} {what}", count(files as u64)));
+        let parts = counted(self.pictures.len(), "frames")
             .into_iter()
-            .chain(counted(&self.particles, "particle files"))
-            .chain(counted(&self.arrays, "folders of arrays"))
-            .chain(counted(&self.surfaces, "surfaces"))
-            .chain(counted(&self.checkpoints, "checkpoints"))
-            .chain(counted(&self.sensors, "files of sensors"))
-            .chain(names.map(str::to_owned));
+            .chain(counted(self.particles.len(), "particle files"))
+            .chain(counted(self.arrays.len(), "folders of arrays"))
+            .chain(counted(self.surfaces.len(), "surfaces"))
+            .chain(counted(self.checkpoints.len(), "checkpoints"))
+            .chain(counted(self.sensors.len(), "files of sensors"))
+            .chain(self.records.iter().cloned());
         f.write_str(&parts.collect::<Vec<_>>().join(", "))
     }
 }
@@ -246,23 +270,21 @@ pub fn numbered(name: &str, prefix: &str, suffix: &str) -> Option<u32> {
     all.then(|| digits.parse().ok()).flatten()
 }
 
-/// Removes a frame's arrays, and its folder unless something else is in it.
-fn remove_arrays(folder: &Path) -> io::Result<()> {
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        if path.extension().is_some_and(|extension| extension == "npy") {
-            fs::remove_file(path)?;
-        }
-    }
-    match fs::remove_dir(folder) {
-        Err(reason) if reason.kind() == io::ErrorKind::DirectoryNotEmpty => Ok(()),
-        done => done,
-    }
+/// Whether a file begins as surfaces of Sliceflow do.
+pub fn is_surface(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = files::open(path).and_then(|file| file.take(64).read_to_end(&mut head));
+    let marks: [&[u8]; 2] = [
+        b"# Sliceflow\n",
+        b"ply\nformat binary_little_endian 1.0\ncomment Sliceflow\n",
+    ];
+    read.is_ok() && !files::is_link(path) && marks.iter().any(|mark| head.starts_with(mark))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::manifest::Files;
 
     fn names(path: &Path) -> Vec<String> {
         let entries = fs::read_dir(path).unwrap();
@@ -273,30 +295,48 @@ mod tests {
         names
     }
 
+    /// A manifest as a run of ten frames leaves it.
+    const MANIFEST: &str = r#"{"program":"sliceflow","first_frame":0,"last_frame":9,"files":[{"name":"run.json"},
+        {"name":"frame_NNNNNN.png"},{"name":"particles_NNNNNN/COLUMN.npy"},{"name":"particles_NNNNNN.vtp"},
+        {"name":"particles.pvd"},{"name":"sensors.csv"}]}"#;
+
+    fn put(path: &Path, names: &[&str]) {
+        for name in names {
+            if let Some((folder, _)) = name.split_once('/') {
+                fs::create_dir_all(path.join(folder)).unwrap();
+            }
+            fs::write(path.join(name), b"").unwrap();
+        }
+    }
+
     #[test]
     fn an_earlier_run_is_refused_and_then_replaced_alone() {
         let temporary = tempfile::tempdir().unwrap();
         let path = temporary.path().join("deep/out");
         let folder = Folder::open(&path, false).unwrap();
-        assert_eq!(folder.clear().unwrap(), None);
-        for file in [
-            folder.picture(0),
-            folder.picture(1),
-            folder.manifest(),
-            path.join("notes.txt"),
-        ] {
-            fs::write(file, b"").unwrap();
-        }
-        fs::create_dir(folder.particles(0)).unwrap();
-        fs::write(folder.particles(0).join("id.npy"), b"").unwrap();
-        for name in [
-            "particles_000000.ply",
+        assert!(folder.clear().unwrap().is_empty());
+        let ours = [
+            "frame_000000.png",
+            "frame_000009.png",
+            "frame_000003.png.part",
+            "particles_000000/id.npy",
             "particles_000000.vtp",
-            "particles_000000.bgeo",
             "particles.pvd",
-        ] {
-            fs::write(path.join(name), b"").unwrap();
-        }
+            "sensors.csv",
+            "sensors_pressure.png",
+        ];
+        let others = [
+            "notes.txt",
+            "frame_000123.png",
+            "particles_000001/mine.npy",
+            "particles_000002.ply",
+            "surface_000001.obj",
+            "sensor_mine.csv",
+        ];
+        put(&path, &ours);
+        put(&path, &others);
+        fs::write(path.join("surface_000002.obj"), "# Sliceflow\nv 0 0 0\n").unwrap();
+        fs::write(folder.manifest(), MANIFEST).unwrap();
 
         let busy = Folder::open(&path, true).unwrap_err().to_string();
         assert!(busy.contains("another run is writing"), "{busy}");
@@ -309,11 +349,72 @@ mod tests {
             message.contains("2 frames") && message.contains("--force"),
             "{message}"
         );
-        assert_eq!(names(&path).len(), 9);
+        assert!(path.join("run.json").exists());
 
-        let told = Folder::open(&path, true).unwrap().clear().unwrap().unwrap();
-        assert!(told.contains("2 frames") && told.contains("run.json"), "{told}");
-        assert_eq!(names(&path), ["notes.txt"]);
+        let folder = Folder::open(&path, true).unwrap();
+        let told = folder.clear().unwrap();
+        assert!(
+            told[0].contains("2 frames") && told[0].contains("run.json"),
+            "{told:?}"
+        );
+        assert!(
+            told[1].contains("5 files stay") && told[1].contains("frame_000123.png"),
+            "{told:?}"
+        );
+        let left = super::super::record::names(&path).unwrap();
+        let mut expected = others.map(str::to_owned);
+        expected.sort();
+        assert_eq!(left, expected[..]);
+        assert!(!path.join("particles_000000").exists());
+    }
+
+    #[test]
+    fn what_no_run_has_recorded_is_neither_removed_nor_replaced() {
+        let temporary = tempfile::tempdir().unwrap();
+        let path = temporary.path();
+        put(path, &["frame_000003.png", "frame_000123.png"]);
+        let folder = Folder::open(path, true).unwrap();
+        let file = |name: &str| Files {
+            name: name.into(),
+            about: String::new(),
+        };
+        let coming = [file("run.json"), file("frame_NNNNNN.png")];
+        let told = folder
+            .check_names(&Record::new(&coming, 0..=9))
+            .unwrap_err()
+            .to_string();
+        assert!(
+            told.contains("frame_000003.png") && told.contains("--out"),
+            "{told}"
+        );
+        assert!(folder.check_names(&Record::new(&coming, 10..=19)).is_ok());
+        assert!(folder.clear().unwrap()[0].contains("2 files stay"));
+        assert_eq!(names(path), ["frame_000003.png", "frame_000123.png"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_under_names_of_a_run_are_refused_and_others_stay() {
+        use std::os::unix::fs::symlink;
+
+        let temporary = tempfile::tempdir().unwrap();
+        let (path, outside) = (temporary.path().join("run"), temporary.path().join("outside"));
+        fs::create_dir_all(&path).unwrap();
+        put(&outside, &["a/id.npy"]);
+        symlink(&outside, path.join("latest")).unwrap();
+        assert!(Folder::open(&path, true).is_ok());
+        for name in [
+            "particles_000005",
+            "stats.jsonl",
+            "run.json.part",
+            "checkpoint_000001.bin",
+        ] {
+            symlink(outside.join("a"), path.join(name)).unwrap();
+            let told = Folder::open(&path, true).unwrap_err().to_string();
+            assert!(told.contains(name) && told.contains("a link"), "{told}");
+            fs::remove_file(path.join(name)).unwrap();
+        }
+        assert!(outside.join("a/id.npy").exists());
     }
 
     #[test]

@@ -139,14 +139,15 @@ impl Keeper {
         self.last_frame = Some(frame);
         let written = checkpoint.write(&self.folder.checkpoint(frame));
         self.last_time = Instant::now();
-        written.and_then(|()| self.thin_out())
+        written.and_then(|()| self.thin_out(frame))
     }
 
-    fn thin_out(&self) -> Result<()> {
+    /// Later ones than `newest` are none of the run's.
+    fn thin_out(&self, newest: u32) -> Result<()> {
         let all = self.folder.checkpoints()?;
         let others: Vec<PathBuf> = all
             .into_iter()
-            .filter(|(frame, _)| Some(*frame) != self.pinned)
+            .filter(|(frame, _)| Some(*frame) != self.pinned && *frame <= newest)
             .map(|(_, path)| path)
             .collect();
         let too_many = others.len().saturating_sub(self.settings.keep as usize);

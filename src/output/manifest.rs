@@ -1,5 +1,6 @@
 //! `run.json`: what was run, on what, with which result, and what every file beside it is.
 
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use schemars::JsonSchema;
@@ -44,6 +45,10 @@ pub struct Manifest<'a> {
     pub peak_resident_bytes: Option<u64>,
     /// Every kind of file that the run writes.
     pub files: Vec<Files>,
+    /// Number of the first frame in the folder.
+    pub first_frame: u32,
+    /// Number of the last frame that is to be in the folder.
+    pub last_frame: u32,
     /// The adapter that computed.
     pub adapter: Identity,
     /// Particles when every emitter and event has happened, boundary particles apart.
@@ -120,6 +125,7 @@ impl<'a> Manifest<'a> {
         gpu: &Gpu,
         command_line: &'a [String],
         files: Vec<Files>,
+        frames: RangeInclusive<u32>,
     ) -> Self {
         let text = serde_json::to_vec(&scene.file).expect("a validated scene has text keys");
         Self {
@@ -133,6 +139,8 @@ impl<'a> Manifest<'a> {
             tally: Tally::start(scene.time.frames),
             peak_resident_bytes: None,
             files,
+            first_frame: *frames.start(),
+            last_frame: *frames.end(),
             adapter: Identity::of(&gpu.adapter),
             particles: scene.first_boundary(),
             boundary_particles: scene.boundary.len() as u32,

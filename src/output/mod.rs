@@ -25,6 +25,7 @@ pub mod plot;
 mod png;
 pub mod progress;
 mod read_back;
+mod record;
 mod redraw;
 pub mod rerun;
 mod resume;
@@ -46,6 +47,7 @@ mod workers;
 
 use std::sync::Arc;
 
+pub use checkpoint::Checkpoint;
 pub use clock::now;
 pub use configuration::Recorded;
 pub use disk::write as write_file;

@@ -4,6 +4,7 @@ use std::fs;
 use std::io::{self, Write as _};
 use std::path::Path;
 
+use crate::files;
 use crate::scene::npy::{Number, header};
 
 /// Writes `values` in C order: shape (N,) for one column, (N, columns) for more. Little-endian, as every machine that
@@ -23,7 +24,7 @@ pub fn write<T: Number>(path: &Path, columns: usize, values: &[T]) -> io::Result
     let mut name = path.as_os_str().to_owned();
     name.push(".part");
     let write = || {
-        let mut file = fs::File::create(&name)?;
+        let mut file = files::create(Path::new(&name))?;
         file.write_all(&header::<T>(shape))?;
         file.write_all(bytemuck::cast_slice(values))?;
         drop(file);

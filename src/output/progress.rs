@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::bar::Bar;
 use super::forecast::Forecast;
 use super::tally::Tally;
-use super::text::{seconds, short};
+use super::text::{printable, seconds, short};
 use crate::simulation::frame::Frame;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -155,5 +155,5 @@ fn event(value: Value) {
 
 /// A log that nobody reads any more is no reason to stop a run.
 fn line(text: &str) {
-    let _ = writeln!(stderr(), "{text}");
+    let _ = writeln!(stderr(), "{}", printable(text));
 }

@@ -8,6 +8,7 @@ use super::configuration::Recorded;
 use super::particles::{FORMATS, found};
 use super::rewind::checkpoints;
 use crate::error::{Error, Result};
+use crate::files;
 use crate::scene::npy::Array;
 use crate::scene::particle_file;
 use crate::simulation::State;
@@ -63,7 +64,7 @@ impl ReadBack {
         let snapshot = if path.is_dir() {
             Snapshot::from_arrays(path)
         } else if path.extension().is_some_and(|extension| extension == "bin") {
-            Snapshot::from_checkpoint(path, self.boundary)
+            Snapshot::from_checkpoint(path, frame, self.boundary)
         } else {
             Snapshot::from_points(path)
         };
@@ -94,7 +95,17 @@ impl Snapshot {
         let columns = paths
             .iter()
             .map(|path| Column::from_npy(path).map_err(|reason| failed(path, &reason)))
-            .collect::<Result<_>>()?;
+            .collect::<Result<Vec<_>>>()?;
+        let rows = columns.first().map_or(0, Column::particles);
+        if let Some(other) = columns.iter().find(|column| column.particles() != rows) {
+            let reason = format!(
+                "{} has {} rows and {} has {rows}",
+                other.name,
+                other.particles(),
+                columns[0].name
+            );
+            return Err(failed(folder, &reason));
+        }
         Ok(Self { columns, state: None })
     }
 
@@ -117,10 +128,16 @@ impl Snapshot {
         })
     }
 
-    fn from_checkpoint(path: &Path, boundary: usize) -> Result<Self> {
-        let state = Checkpoint::read(path)
-            .map_err(|wrong| Error::file(path, "read", wrong, "remove it, and do without its frame"))?
-            .state;
+    fn from_checkpoint(path: &Path, frame: u32, boundary: usize) -> Result<Self> {
+        let failed = |wrong: String| Error::file(path, "read", wrong, "remove it, and do without its frame");
+        let state = Checkpoint::read(path).map_err(failed)?.state;
+        let vectors = ["position", "velocity", "acceleration"].map(|name| state.vectors(name));
+        let count = state.ids().len();
+        if state.frame != frame || vectors.iter().flatten().any(|vectors| vectors.len() != count) {
+            return Err(failed(
+                "it is of another frame, or not as this version writes it".into(),
+            ));
+        }
         let ids = state.ids();
         let mut slot_of: Vec<usize> = (0..ids.len()).collect();
         slot_of.sort_by_key(|&slot| ids[slot]);
@@ -156,13 +173,29 @@ impl Column {
     }
 
     fn from_npy(path: &Path) -> std::io::Result<Self> {
-        let file = std::fs::read(path)?;
+        let wrong = |what: String| std::io::Error::new(std::io::ErrorKind::InvalidData, what);
+        let file = files::read(path)?;
         let array = Array::parse(&file)?;
-        let width = array.shape.get(1).copied().unwrap_or(1);
+        let width = match array.shape[..] {
+            [_] => 1,
+            [_, width] if width > 0 && !array.is_fortran => width,
+            _ => {
+                return Err(wrong(format!(
+                    "the array has shape {:?}{}, and columns have one row per particle",
+                    array.shape,
+                    if array.is_fortran { " in Fortran order" } else { "" }
+                )));
+            }
+        };
         let values = array
             .numbers()
-            .ok_or_else(|| std::io::Error::other(format!("the array holds {}, no numbers", array.kind)))?;
+            .ok_or_else(|| wrong(format!("the array holds {}, no numbers", array.told_kind())))?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        if ["position", "velocity", "acceleration"].contains(&&*name) && !(2..=3).contains(&width) {
+            return Err(wrong(format!(
+                "the array has {width} numbers per particle, and vectors have 2 or 3"
+            )));
+        }
         let (width, values) = match width {
             2 => (
                 3,

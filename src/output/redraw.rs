@@ -12,6 +12,7 @@ use super::frame_range::FrameRange;
 use super::manifest::Manifest;
 use super::progress::Progress;
 use super::read_back::{ReadBack, Snapshot};
+use super::record::Record;
 use super::run::Settings;
 use super::stopping::Stopping;
 use super::tally::Tally;
@@ -29,6 +30,10 @@ use crate::simulation::{Simulation, State};
 const DRAWN: [&str; 6] = ["render", "neighbors", "name", "description", "source", "$schema"];
 /// The same of a collider.
 const DRAWN_OF_COLLIDERS: [&str; 2] = ["color", "visible"];
+/// Warnings of one kind that are told one by one.
+const MOST_WARNINGS: usize = 3;
+/// No run has more.
+const MOST_FRAMES: u32 = 1 << 21;
 /// Columns that cannot be drawn without velocities.
 const OF_VELOCITY: [&str; 5] = ["speed", "velocity_x", "velocity_y", "velocity_z", "pressure"];
 
@@ -52,8 +57,16 @@ pub fn redraw(
     let mut frames = Vec::new();
     let mut is_given = true;
     let mut refusal = Ok(());
+    let mut warnings = Vec::new();
     for frame in source.frames().filter(|&frame| range.contains(frame)) {
         if let Some(snapshot) = source.read(frame)?.filter(|s| s.column("position").is_some()) {
+            let lost = lost(&snapshot);
+            if lost > 0 {
+                warnings.push(format!(
+                    "frame {frame}: {lost} of {} particles have positions that are no numbers, and are not drawn",
+                    snapshot.particles()
+                ));
+            }
             is_given &= given_color::values(&scene, &snapshot).is_some();
             refusal = refusal.and_then(|()| check_color(&scene, &snapshot, frame));
             if snapshot.state.is_none() {
@@ -71,7 +84,8 @@ pub fn redraw(
     } else {
         refusal?;
     }
-    let made = configuration.first_frame..configuration.first_frame + recorded.frames_done;
+    let end = configuration.first_frame.saturating_add(recorded.frames_done);
+    let made = configuration.first_frame..end.min(MOST_FRAMES);
     if frames.is_empty() && !made.clone().any(|frame| range.contains(frame)) {
         return Err(Error::usage(
             "the run has none of these frames",
@@ -88,7 +102,18 @@ pub fn redraw(
         ));
     };
     let folder = Arc::new(Folder::open(&settings.folder, settings.force)?);
+    let files = settings.outputs.files(&scene);
+    folder.check_names(&Record::new(&files, *first..=*last))?;
     let progress = Progress::new(settings.progress, frames.len() as u32);
+    for warning in warnings.iter().take(MOST_WARNINGS) {
+        progress.warn(warning);
+    }
+    if warnings.len() > MOST_WARNINGS {
+        progress.warn(&format!(
+            "{} more frames have such positions",
+            warnings.len() - MOST_WARNINGS
+        ));
+    }
     let wanted = made.filter(|&frame| range.contains(frame));
     let missing = wanted
         .filter(|frame| frames.binary_search(frame).is_err())
@@ -113,7 +138,7 @@ pub fn redraw(
         progress.note(why);
     }
     let mut simulation = Simulation::new(gpu, &scene, &plan)?;
-    if let Some(told) = folder.clear()? {
+    for told in folder.clear()? {
         progress.note(&told);
     }
     let shown = as_shown(&scene, &frames);
@@ -133,7 +158,8 @@ pub fn redraw(
         &plan,
         simulation.gpu(),
         &settings.command_line,
-        settings.outputs.files(&scene),
+        files,
+        *first..=*last,
     );
     manifest.drawn_from = Some(std::path::absolute(&recorded.folder).unwrap_or_default());
     manifest.update(tally)?;
@@ -189,6 +215,15 @@ pub fn redraw(
     );
     let closed = manifest.close(tally, &outcome);
     outcome.and(closed)
+}
+
+/// Particles that are nowhere.
+fn lost(snapshot: &Snapshot) -> usize {
+    let position = snapshot.column("position");
+    let rows = position
+        .into_iter()
+        .flat_map(|column| column.values.chunks_exact(column.width));
+    rows.filter(|row| row.iter().any(|x| !x.is_finite())).count()
 }
 
 /// The scene as a video shows it, with the frames that are drawn and no others.

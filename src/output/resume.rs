@@ -1,6 +1,7 @@
 //! Runs that go on: the same run behind its newest checkpoint, or a variant from one of its frames.
 
-use std::path::Path;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde_json::Value;
@@ -11,10 +12,13 @@ use super::drive::{Launch, Start, drive, open};
 use super::folder::Folder;
 use super::interrupt;
 use super::progress::Progress;
+use super::rerun::Target;
 use super::rewind::checkpoints;
-use super::run::Settings;
+use super::run::{Outputs, Settings};
 use super::stopping::Stopping;
+use super::text::count;
 use crate::error::{Error, Result};
+use crate::files;
 use crate::plan::{Plan, Wanted};
 use crate::scene::Scene;
 use crate::simulation::{Simulation, State};
@@ -29,7 +33,7 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
     let progress = Progress::new(settings.progress, scene.time.frames);
     let first = configuration.first_frame;
     let frames = scene.time.frames;
-    let newest = newest(&recorded.folder, &configuration, u32::MAX, &progress)?;
+    let newest = newest(&recorded.folder, &configuration, &scene, u32::MAX, &progress)?;
     let made = match &newest {
         Some(checkpoint) => checkpoint.state.frame + 1,
         None => first,
@@ -40,7 +44,10 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
             "ask for more, or begin a new run",
         ));
     }
-    if recorded.status == "finished" && frames == first + recorded.frames_done {
+    if let Some(warning) = lost(&folder, &settings.outputs, first..made) {
+        progress.warn(&warning);
+    }
+    if recorded.status == "finished" && frames == first.saturating_add(recorded.frames_done) {
         progress.note(&format!(
             "{} is finished: {frames} frames; make it longer with --frames, or start a variant with --branch-at",
             recorded.folder.display()
@@ -79,6 +86,7 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
         // What an earlier attempt left of this part is made again.
         video.check(true)?;
     }
+    check_outside(&settings)?;
     drive(Launch {
         scene: &scene,
         settings: &settings,
@@ -108,7 +116,7 @@ pub fn branch(recorded: &Recorded, frame: u32, overrides: &[String], settings: &
     for warning in overruled(&old, &scene, frame) {
         progress.warn(&warning);
     }
-    let newest = newest(&recorded.folder, configuration, frame, &progress)?;
+    let newest = newest(&recorded.folder, configuration, &old, frame, &progress)?;
     if newest.is_none() && configuration.variant_of.is_some() {
         return Err(Error::usage(
             "the checkpoint that this run began with is gone or damaged",
@@ -169,6 +177,68 @@ fn part_from(
         ));
     }
     part
+}
+
+/// Files of frames that the run has made and that are there no longer, in words.
+fn lost(folder: &Folder, outputs: &Outputs, frames: Range<u32>) -> Option<String> {
+    let mut lost: Vec<PathBuf> = Vec::new();
+    for frame in frames {
+        if outputs.pictures {
+            lost.push(folder.picture(frame));
+        }
+        if let Some(particles) = outputs
+            .particles
+            .as_ref()
+            .filter(|p| frame.is_multiple_of(p.every))
+        {
+            let stem = folder.particles(frame);
+            lost.extend(
+                particles
+                    .formats
+                    .iter()
+                    .map(|format| match Path::new(format.file).extension() {
+                        Some(ending) if format.is_points => stem.with_extension(ending),
+                        _ => stem.clone(),
+                    }),
+            );
+        }
+    }
+    lost.retain(|path| !path.exists());
+    let first = lost.first()?.file_name()?.display().to_string();
+    Some(format!(
+        "{} files of frames that the run has made are gone, the first of them {first}: they stay away; `sliceflow render` \
+         draws pictures again where particle files or checkpoints are, and a new run makes all of them",
+        count(lost.len() as u64)
+    ))
+}
+
+/// Refuses to replace files outside of the run's folder unless told to: whoever wrote down the run's arguments may not be
+/// who resumes it.
+fn check_outside(settings: &Settings) -> Result<()> {
+    let outputs = &settings.outputs;
+    let recordings = outputs.rerun.iter().flat_map(|rerun| &rerun.targets);
+    let recordings = recordings.filter_map(|target| match target {
+        Target::File(path) => Some(path.as_path()),
+        _ => None,
+    });
+    let videos = outputs.video.iter().map(|video| video.path());
+    let run = settings.folder.canonicalize();
+    let is_outside = |path: &Path| {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let folder = folder.unwrap_or(Path::new(".")).canonicalize();
+        !matches!((&run, folder), (Ok(run), Ok(folder)) if folder.starts_with(run))
+    };
+    let is_there = |path: &Path| path.exists() || files::is_link(path);
+    match videos
+        .chain(recordings)
+        .find(|path| is_there(path) && is_outside(path))
+    {
+        Some(path) if !settings.force => Err(Error::usage(
+            format!("{} is there already, outside of the run's folder", path.display()),
+            "replace it with --force, or move it to another place",
+        )),
+        _ => Ok(()),
+    }
 }
 
 fn check_variant(configuration: &Configuration, old: &Scene, scene: &Scene, frame: u32) -> Result<()> {
@@ -233,6 +303,7 @@ fn overruled(old: &Scene, scene: &Scene, frame: u32) -> Vec<String> {
 fn newest(
     folder: &Path,
     configuration: &Configuration,
+    scene: &Scene,
     until: u32,
     progress: &Progress,
 ) -> Result<Option<Checkpoint>> {
@@ -243,7 +314,12 @@ fn newest(
         let wrong = match Checkpoint::read(&path) {
             Ok(read) if read.about.run_id != configuration.run_id => "belongs to another run".to_owned(),
             Ok(read) if read.state.frame != frame => "has the name of another frame".to_owned(),
-            Ok(read) => return Ok(Some(read)),
+            Ok(_) if frame < configuration.first_frame => "is of a frame before the run's first".to_owned(),
+            Ok(read) if !read.state.is_finite() => "has coordinates that are no numbers".to_owned(),
+            Ok(read) => match read.state.check(scene) {
+                Ok(()) => return Ok(Some(read)),
+                Err(wrong) => wrong,
+            },
             Err(wrong) => wrong,
         };
         progress.warn(&format!("{} {wrong}; looking for one before it", path.display()));

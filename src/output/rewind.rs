@@ -1,5 +1,6 @@
 //! A run's folder, seen by frames: its checkpoints, what must be safe on disk, and back to an earlier frame.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -8,8 +9,10 @@ use serde_json::Value;
 
 use super::disk;
 use super::folder::Folder;
+use super::record::{Record, frame_of, names};
 use super::text::count;
 use crate::error::Result;
+use crate::files;
 
 impl Folder {
     pub fn checkpoint(&self, frame: u32) -> PathBuf {
@@ -31,29 +34,46 @@ impl Folder {
         disk::sync_folder(&self.manifest()).map_err(|reason| disk::failed(self.path(), "save", reason))
     }
 
-    /// Removes what the folder holds of frames behind `last` (of all frames where there is none), and half-written
-    /// files. Says what that was.
-    pub fn rewind(&self, last: Option<u32>) -> Result<Option<String>> {
-        let mut removed = 0;
-        for (frame, path) in numbered(self.path())? {
-            let is_partial = path.extension().is_some_and(|extension| extension == "part");
+    /// Removes what the folder's run has recorded as its own of frames behind `last` (of all frames where there is none),
+    /// and half-written files. Says what that was.
+    pub fn rewind(&self, last: Option<u32>) -> Result<Vec<String>> {
+        let record = Record::read(self.path());
+        let (mut removed, mut folders) = (BTreeSet::new(), BTreeSet::new());
+        for name in names(self.path())? {
+            let Some(frame) = frame_of(&name).filter(|_| record.has(&name)) else {
+                continue;
+            };
+            let is_partial = name.ends_with(".part");
             if is_partial || last.is_none_or(|last| frame > last) {
-                remove(&path)?;
-                removed += u64::from(!is_partial);
+                self.remove(&name)?;
+                // Arrays count as their folder.
+                let folder = name.split_once('/').map(|(folder, _)| folder.to_owned());
+                folders.extend(folder.clone());
+                if !is_partial {
+                    removed.insert(folder.unwrap_or(name));
+                }
             }
+        }
+        for folder in &folders {
+            self.remove_folder(folder)?;
         }
         cut_lines(&self.statistics(), last, 0, frame_of_statistics)?;
         for table in self.sensor_tables()? {
             // A table of no frame begins anew with its first line.
             cut_lines(&table, last, usize::from(last.is_some()), frame_of_sample)?;
         }
-        Ok((removed > 0).then(|| match last {
-            Some(last) => format!(
+        let told = match (removed.len() as u64, last) {
+            (0, _) => None,
+            (removed, Some(last)) => Some(format!(
                 "removed {} files of frames after frame {last}, which are made again",
                 count(removed)
-            ),
-            None => format!("removed {} files of frames, which are made again", count(removed)),
-        }))
+            )),
+            (removed, None) => Some(format!(
+                "removed {} files of frames, which are made again",
+                count(removed)
+            )),
+        };
+        Ok(told.into_iter().collect())
     }
 }
 
@@ -81,34 +101,6 @@ pub fn numbered(folder: &Path) -> Result<Vec<(u32, PathBuf)>> {
     Ok(found)
 }
 
-/// 12 of `frame_000012.png`, `particles_000012`, `checkpoint_000012.bin` and their like.
-fn frame_of(name: &str) -> Option<u32> {
-    let stem = name.split('.').next()?;
-    let (kind, digits) = stem.rsplit_once('_')?;
-    let is_ours = matches!(kind, "frame" | "particles" | "checkpoint");
-    let is_number = digits.len() >= 6 && digits.bytes().all(|b| b.is_ascii_digit());
-    (is_ours && is_number).then(|| digits.parse().ok()).flatten()
-}
-
-/// Removes a file, or a folder of arrays with whatever a user has not put there.
-fn remove(path: &Path) -> Result<()> {
-    let remove = || {
-        if !path.is_dir() {
-            return fs::remove_file(path);
-        }
-        let mut others = 0;
-        for entry in fs::read_dir(path)? {
-            let file = entry?.path();
-            match file.extension().and_then(|extension| extension.to_str()) {
-                Some("npy" | "part") => fs::remove_file(file)?,
-                _ => others += 1,
-            }
-        }
-        if others == 0 { fs::remove_dir(path) } else { Ok(()) }
-    };
-    remove().map_err(|reason| disk::failed(path, "remove", reason))
-}
-
 fn frame_of_statistics(line: &[u8]) -> Option<u64> {
     let value: Value = serde_json::from_slice(line).ok()?;
     value["frame"].as_u64()
@@ -127,7 +119,7 @@ fn cut_lines(
     titles: usize,
     frame_of: fn(&[u8]) -> Option<u64>,
 ) -> Result<()> {
-    let text = match fs::read(path) {
+    let text = match files::read(path) {
         Ok(text) => text,
         Err(reason) if reason.kind() == std::io::ErrorKind::NotFound => return Ok(()),
         Err(reason) => return Err(disk::failed(path, "read", reason)),
@@ -140,13 +132,8 @@ fn cut_lines(
     let kept =
         lines.take_while(|&(number, line)| line.ends_with(b"\n") && (number < titles || is_early(line)));
     let kept: usize = kept.map(|(_, line)| line.len()).sum();
-    let cut = || {
-        fs::OpenOptions::new()
-            .write(true)
-            .open(path)?
-            .set_len(kept as u64)
-    };
-    cut().map_err(|reason| disk::failed(path, "shorten", reason))
+    // A file of its own, in case the old one has other names in other places.
+    disk::write(path, &text[..kept])
 }
 
 #[cfg(test)]
@@ -167,11 +154,14 @@ mod tests {
         fs::write(folder.particles(3).join("mine.txt"), b"").unwrap();
         fs::write(path("frame_000001.png.part"), b"").unwrap();
         fs::write(path("notes_000009.txt"), b"").unwrap();
-        fs::write(folder.manifest(), b"{}").unwrap();
+        let manifest = r#"{"program":"sliceflow","first_frame":0,"last_frame":3,"files":[{"name":"run.json"},
+            {"name":"frame_NNNNNN.png"},{"name":"checkpoint_NNNNNN.bin"},{"name":"particles_NNNNNN/COLUMN.npy"}]}"#;
+        fs::write(folder.manifest(), manifest).unwrap();
+        fs::write(folder.picture(4), b"of somebody else").unwrap();
         let lines = "{\"frame\":0}\n{\"frame\":1}\n{\"frame\":2}\n{\"fra";
         fs::write(folder.statistics(), lines).unwrap();
 
-        let told = folder.rewind(Some(1)).unwrap().unwrap();
+        let told = folder.rewind(Some(1)).unwrap().remove(0);
         assert!(told.contains("6 files") && told.contains("frame 1"), "{told}");
         assert!(folder.picture(1).exists() && !folder.picture(2).exists());
         assert!(folder.particles(1).exists() && !folder.particles(2).exists());
@@ -183,6 +173,7 @@ mod tests {
         assert_eq!(folder.checkpoints().unwrap().len(), 2);
         assert!(!path("frame_000001.png.part").exists());
         assert!(path("notes_000009.txt").exists() && folder.manifest().exists());
+        assert!(folder.picture(4).exists());
         assert_eq!(
             fs::read_to_string(folder.statistics()).unwrap(),
             "{\"frame\":0}\n{\"frame\":1}\n"
@@ -191,6 +182,6 @@ mod tests {
         folder.rewind(None).unwrap();
         assert!(!folder.picture(0).exists() && folder.manifest().exists());
         assert_eq!(fs::read_to_string(folder.statistics()).unwrap(), "");
-        assert_eq!(folder.rewind(Some(3)).unwrap(), None);
+        assert!(folder.rewind(Some(3)).unwrap().is_empty());
     }
 }

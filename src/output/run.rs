@@ -93,10 +93,7 @@ impl Outputs {
             files.extend(particles.files());
         }
         if self.checkpoints.every != Every::Never {
-            files.push(Files {
-                name: "checkpoint_NNNNNN.bin".into(),
-                about: "state after a frame, for `sliceflow resume`".into(),
-            });
+            files.push(checkpoint_files());
         }
         files.extend(self.video.as_ref().map(VideoOutput::files));
         files.extend(self.rerun.iter().flat_map(rerun::Settings::files));
@@ -133,6 +130,14 @@ impl Outputs {
             sinks.extend(rerun.sinks(scene, plan, self.pictures, progress)?);
         }
         Ok(sinks)
+    }
+}
+
+/// For the manifest.
+pub(super) fn checkpoint_files() -> Files {
+    Files {
+        name: "checkpoint_NNNNNN.bin".into(),
+        about: "state after a frame, for `sliceflow resume`".into(),
     }
 }
 

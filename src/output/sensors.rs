@@ -3,7 +3,7 @@
 pub mod from_files;
 
 use std::fmt::Write as _;
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,6 +11,7 @@ use std::sync::Arc;
 use super::folder::Folder;
 use super::{Sink, disk};
 use crate::error::Result;
+use crate::files;
 use crate::scene::Scene;
 use crate::scene::sensors::{Kind, Output, Sensor, layer};
 use crate::simulation::Sample;
@@ -59,8 +60,7 @@ impl SensorFiles {
 impl TableFile {
     fn open(path: PathBuf, header: &str) -> Result<Self> {
         let failed = |reason| disk::failed(&path, "create", reason);
-        let file = OpenOptions::new().create(true).append(true).open(&path);
-        let mut file = file.map_err(failed)?;
+        let mut file = files::append(&path).map_err(failed)?;
         if file.metadata().map_err(failed)?.len() == 0 {
             file.write_all(header.as_bytes()).map_err(failed)?;
         }
@@ -222,7 +222,7 @@ pub fn is_table(path: &Path) -> bool {
     let begins = || -> std::io::Result<bool> {
         use std::io::Read as _;
         let mut head = vec![0; FIRST_COLUMNS.len()];
-        File::open(path)?.read_exact(&mut head)?;
+        files::open(path)?.read_exact(&mut head)?;
         Ok(head == FIRST_COLUMNS.as_bytes())
     };
     begins().unwrap_or(false)
@@ -358,7 +358,7 @@ fn with_unit(name: &str, unit: &str) -> String {
 /// The numbers of a table, row by row; NaN for empty cells.
 #[cfg(feature = "plots")]
 fn read_table(path: &Path) -> Result<Vec<Vec<f64>>> {
-    let text = std::fs::read_to_string(path).map_err(|reason| disk::failed(path, "read", reason))?;
+    let text = files::read_text(path).map_err(|reason| disk::failed(path, "read", reason))?;
     let row = |line: &str| {
         line.split(',')
             .map(|cell| cell.parse().unwrap_or(f64::NAN))

@@ -1,6 +1,6 @@
 //! `stats.jsonl`: one JSON object per frame, on one line.
 
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::{ErrorKind, Write as _};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -12,6 +12,7 @@ use serde_json::{Map, Value};
 
 use super::{Sink, disk};
 use crate::error::Result;
+use crate::files;
 use crate::physics::layout::Convergence;
 use crate::simulation::frame::{AdaptiveSteps, Frame, Statistics};
 
@@ -24,8 +25,7 @@ pub struct StatisticsFile {
 impl StatisticsFile {
     /// Goes on behind the lines that are there.
     pub fn open(path: PathBuf) -> Result<Self> {
-        let file = OpenOptions::new().create(true).append(true).open(&path);
-        let file = file.map_err(|reason| disk::failed(&path, "create", reason))?;
+        let file = files::append(&path).map_err(|reason| disk::failed(&path, "create", reason))?;
         Ok(Self { path, file })
     }
 }

@@ -70,6 +70,23 @@ pub fn short(value: f64) -> String {
     format!("{scaled:.decimals$}{unit}")
 }
 
+/// Text as a terminal may have it: control characters, which could move the cursor or change colors, are written as
+/// `\\u{1b}`. Ends of lines and tabs stay.
+pub fn printable(text: &str) -> std::borrow::Cow<'_, str> {
+    let is_control = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+    if !text.contains(is_control) {
+        return text.into();
+    }
+    let mut printed = String::with_capacity(text.len());
+    for c in text.chars() {
+        match is_control(c) {
+            true => printed.extend(c.escape_unicode()),
+            false => printed.push(c),
+        }
+    }
+    printed.into()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -9,6 +9,9 @@ use crate::scene::{self, ColliderShape, Scene};
 /// Nodes that all distance fields together may have; more would be coarsened. 16 Mi values are 64 MiB.
 const MOST_NODES: f64 = (1u64 << 24) as f64;
 
+/// Nodes that each may have in any case.
+const LEAST_NODES: f64 = 4096.0;
+
 /// Every obstacle of a scene.
 #[derive(Debug, Clone, Default)]
 pub struct Obstacles {
@@ -78,7 +81,14 @@ impl Obstacles {
                 let (min, max) = mesh.bounds();
                 let extent = max - min + 4.0 * grain;
                 let smallest = (extent.x * extent.y * extent.z / MOST_NODES).cbrt();
-                let cell = grain.max(smallest);
+                let mut cell = grain.max(smallest);
+                // The margin grows with the cells, which matters for flat meshes.
+                let room = (MOST_NODES - self.field.len() as f64).max(LEAST_NODES);
+                let nodes =
+                    |cell: f64| SignedDistance::size(mesh, cell, 2.0 * grain + 2.0 * cell).element_product();
+                while nodes(cell) > 2.0 * room {
+                    cell *= 1.25;
+                }
                 if cell > grain {
                     self.notes.push(format!(
                         "collider `{}`: its distance field has nodes every {cell:.3e} m, wider than a grain's radius, \

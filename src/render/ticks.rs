@@ -3,6 +3,10 @@
 /// At most about `most` round values (1, 2 or 5 times a power of ten apart) from `low` to `high`.
 pub fn ticks(low: f64, high: f64, most: usize) -> Vec<f64> {
     let rough = (high - low) / most.max(1) as f64;
+    // So near to each other, or so far apart, numbers have no round ones between them.
+    if !rough.is_normal() || rough <= low.abs().max(high.abs()) * f64::EPSILON {
+        return vec![low, high];
+    }
     let power = 10.0_f64.powf(rough.log10().floor());
     let step = [1.0, 2.0, 5.0, 10.0]
         .into_iter()
@@ -71,6 +75,20 @@ mod tests {
         assert_eq!(labels(&ticks(1000.0, 2000.0, 4)), ["1000", "1500", "2000"]);
         assert_eq!(labels(&ticks(-0.3, 0.3, 4)), ["−0.2", "0.0", "0.2"]);
         assert_eq!(labels(&ticks(0.0, 4e7, 4)), ["0", "1e7", "2e7", "3e7", "4e7"]);
+    }
+
+    #[test]
+    fn ranges_that_numbers_do_not_resolve_have_their_ends() {
+        for [low, high] in [
+            [0.0, 5e-324],
+            [-f64::MAX, f64::MAX],
+            [1.0, 1.0 + f64::EPSILON],
+            [1e300, 1.1e300],
+        ] {
+            let ticks = ticks(low, high, 5);
+            assert!((1..=7).contains(&ticks.len()), "{low:e} to {high:e}: {ticks:?}");
+            assert_eq!(labels(&ticks).len(), ticks.len());
+        }
     }
 
     #[test]

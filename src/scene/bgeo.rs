@@ -1,12 +1,12 @@
 //! Reads points from Houdini's binary geometry, version 5 (.bgeo): big-endian, packed by gzip or not.
 
-use std::fs;
-use std::io::Read as _;
+use std::io::{self, Read as _};
 use std::path::Path;
 
 use flate2::read::GzDecoder;
 
 use super::particle_file::{NamedColumn, Table, columns_of};
+use crate::files;
 
 pub(super) fn read(path: &Path) -> Result<Table, String> {
     let name = path.display();
@@ -19,14 +19,31 @@ pub(super) fn read(path: &Path) -> Result<Table, String> {
     })
 }
 
-fn unpacked(path: &Path) -> std::io::Result<Vec<u8>> {
-    let bytes = fs::read(path)?;
+/// What a packed file may grow to: particles do not lie so evenly that gzip finds more in them.
+const USUAL_GROWTH: u64 = 64;
+/// Small files may grow to this in any case, bytes.
+const SMALL: u64 = 64 << 20;
+
+fn unpacked(path: &Path) -> io::Result<Vec<u8>> {
+    let bytes = files::read(path)?;
     if !bytes.starts_with(&[0x1f, 0x8b]) {
         return Ok(bytes);
     }
+    let most = SMALL.max(USUAL_GROWTH * bytes.len() as u64);
     let mut unpacked = Vec::new();
-    GzDecoder::new(&bytes[..]).read_to_end(&mut unpacked)?;
-    Ok(unpacked)
+    GzDecoder::new(&bytes[..])
+        .take(most + 1)
+        .read_to_end(&mut unpacked)?;
+    match unpacked.len() as u64 > most {
+        true => Err(io::Error::new(
+            io::ErrorKind::InvalidData,
+            format!(
+                "its {} bytes unpack to more than {most}, as no particles do; export it again without packing",
+                bytes.len()
+            ),
+        )),
+        false => Ok(unpacked),
+    }
 }
 
 fn parse(mut rest: &[u8]) -> Option<Table> {

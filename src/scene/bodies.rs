@@ -1,5 +1,6 @@
 //! Bodies, filled with grains.
 
+use std::f64::consts::PI;
 use std::path::Path;
 
 use glam::DVec3;
@@ -9,16 +10,13 @@ use rand_chacha::rand_core::SeedableRng;
 use super::filling::Filling;
 use super::fit::{self, Grains, Placed};
 use super::fluid;
-use super::frame::{Frame, Report};
+use super::frame::{Frame, LARGEST_COORDINATE, Report};
 use super::mesh::Mesh;
 use super::model::{self, Arrangement, Body, SceneFile, Shape};
 use super::obstacles::{self, FILE_HELP, check_corners, transform};
 use super::shapes::{self, Region};
 use super::text::number;
 use super::{Collider, Dimensions, Particles, particle_file};
-
-/// Ids, offsets and dispatches stay far inside 32 bits.
-pub const MOST_PARTICLES: u64 = 1 << 27;
 
 /// The particles that are there from the start, in the order of the bodies.
 pub struct Filled {
@@ -51,6 +49,19 @@ pub fn fill(
         let Some(mut grains) = grains(i, body, fillings[i], file, frame, folder, report) else {
             continue;
         };
+        let farthest = grains
+            .position
+            .iter()
+            .map(|p| p.abs().max_element())
+            .fold(0.0, f64::max);
+        if farthest > LARGEST_COORDINATE {
+            report.problem(
+                &path,
+                format!("a particle lies {} m from the domain's center", number(farthest)),
+                format!("give coordinates below {} m", number(LARGEST_COORDINATE)),
+            );
+            continue;
+        }
         if grains.position.is_empty() {
             let help = format!("make its shape larger or {} smaller", file.size());
             report.problem(&path, "is empty: not one particle fits", help);
@@ -138,6 +149,7 @@ fn grains(
     report: &mut Report,
 ) -> Option<Grains> {
     let path = format!("bodies[{index}]");
+    let sound = report.problems.len();
     let velocity = report.optional(
         &format!("{path}.velocity"),
         body.velocity.as_ref(),
@@ -169,12 +181,23 @@ fn grains(
             );
             return None;
         }
+        if report.problems.len() > sound {
+            return None;
+        }
         let width = (outer - inner) / rings;
+        let count = PI * (outer + inner) * (outer - inner) / (width * width) + rings;
+        if !report.room_for(&path, "would hold about", count, "particles", &smaller(file)) {
+            return None;
+        }
         let position = shapes::rings(frame.local(center), inner + 0.5 * width, rings as u32, width);
         let velocity = vec![velocity; position.len()];
         return Some(Grains { position, velocity });
     }
     let region = region(&shape, &body.shape, frame, folder, report)?;
+    if report.problems.len() > sound {
+        // Where its numbers are wrong, so would be what is made of them.
+        return None;
+    }
     let spacing = body.spacing.unwrap_or(2.0 * radius);
     if spacing < 2.0 * radius * (1.0 - 1e-9) {
         report.problem(
@@ -187,16 +210,20 @@ fn grains(
         );
         return None;
     }
-    let at_most = lattice_points(&region, frame.dimensions, spacing);
-    if at_most > MOST_PARTICLES as f64 {
-        report.problem(
-            &path,
-            format!("would hold about {} particles", number(at_most)),
-            format!(
-                "make it smaller or {} larger: at most {MOST_PARTICLES} particles",
-                file.size()
-            ),
-        );
+    let between = match body.arrangement {
+        Arrangement::Lattice => spacing,
+        Arrangement::Random => 2.0 * radius,
+    };
+    let tried = lattice_points(&region, frame.dimensions, between);
+    let content = region.content(frame.dimensions) / between.powi(frame.dimensions.count() as i32);
+    let most = report.allowance.particles as f64;
+    // Of a thin shape, most points of the lattice around it lie outside; going through them takes time all the same.
+    let count = if tried > most {
+        tried
+    } else {
+        content.max(tried / 16.0).min(tried)
+    };
+    if !report.room_for(&path, "would hold about", count, "particles", &smaller(file)) {
         return None;
     }
     // Each body has its own stream, so that changing one body leaves the others as they were.
@@ -230,6 +257,10 @@ fn grains(
     };
     let velocity = vec![velocity; position.len()];
     Some(Grains { position, velocity })
+}
+
+fn smaller(file: &SceneFile) -> String {
+    format!("make it smaller or {} larger", file.size())
 }
 
 /// Local coordinates.
@@ -301,14 +332,21 @@ fn from_file(
     folder: &Path,
     report: &mut Report,
 ) -> Option<Grains> {
-    let loaded = match particle_file::load(&folder.join(file), frame.dimensions) {
+    let file = report.file(&format!("{path}.file"), folder, file)?;
+    let loaded = match particle_file::load(&file, frame.dimensions) {
         Ok(loaded) => loaded,
         Err(reason) => {
             report.problem(format!("{path}.file"), reason, FILE_HELP);
             return None;
         }
     };
+    let (sound, count) = (report.problems.len(), loaded.position.len() as f64);
     let (scale, rotate, translate) = transform(path, placement, frame, report);
+    if report.problems.len() > sound
+        || !report.room_for(path, "holds", count, "particles", "leave some of them out")
+    {
+        return None;
+    }
     let turned = |points: Vec<DVec3>, scale: DVec3, translate: DVec3| {
         let cloud = Mesh {
             vertices: points,

@@ -56,6 +56,12 @@ pub fn sample(
     for (index, collider) in colliders.iter().enumerate() {
         let given = &file.colliders[index];
         let depth = boundary.depth;
+        let place = format!("colliders[{index}].shape");
+        let count = most_inside(collider, frame, spacing, depth);
+        let help = "make it smaller, or fluid.spacing larger; a plane takes the fewest";
+        if !report.room_for(&place, "takes about", count, "boundary particles", help) {
+            continue;
+        }
         for point in inside(collider, frame, spacing, depth) {
             let turn = match (&collider.shape, given.spin) {
                 (super::ColliderShape::Sphere { center, .. }, Some(spin)) => {
@@ -126,9 +132,33 @@ fn domain_sides(
         Some(count) if tick as f64 >= count - 0.5 => Some(1),
         _ => None,
     };
-    for y in first[1]..last[1] {
-        for z in first[2]..last[2] {
-            for x in first[0]..last[0] {
+    let all: f64 = (0..3).map(|axis| (last[axis] - first[axis]) as f64).product();
+    let inside: f64 = cells.iter().map(|count| count.map_or(1.0, f64::round)).product();
+    let help = "make the domain smaller, or fluid.spacing larger; sides that are `planes` take none";
+    if !report.room_for(
+        "domain.sides",
+        "take about",
+        all - inside,
+        "boundary particles",
+        help,
+    ) {
+        return;
+    }
+    // Ticks along an axis; where there is nothing to find between the sides, those beyond them alone.
+    let ticks = |axis: usize, all: bool| {
+        let end = cells[axis].map_or(last[axis], |count| (count - 0.5).ceil() as i64);
+        let (low, high) = if all {
+            (first[axis]..end, end..last[axis])
+        } else {
+            (first[axis]..0, end..last[axis])
+        };
+        low.chain(high)
+    };
+    let is_between = |axis: usize, tick: i64| beyond(axis, tick).is_none();
+    let has_sides = |axis: usize| ticks(axis, false).next().is_some();
+    for y in ticks(1, has_sides(0) || has_sides(2)) {
+        for z in ticks(2, has_sides(0) || !is_between(1, y)) {
+            for x in ticks(0, !is_between(1, y) || !is_between(2, z)) {
                 let tick = [x, y, z];
                 let sides: Vec<(usize, usize)> = (0..3)
                     .filter_map(|axis| beyond(axis, tick[axis]).map(|end| (axis, end)))
@@ -157,6 +187,67 @@ fn domain_sides(
             "the domain's {name} extent is {} spacings; a fluid that fills it is not evenly spread",
             number((frame.max[axis] - frame.min[axis]) / spacing)
         ));
+    }
+}
+
+/// About how many points [`inside`] makes or goes through, at most.
+fn most_inside(collider: &Collider, frame: &Frame, spacing: f64, depth: f64) -> f64 {
+    use super::ColliderShape::*;
+    let axes = frame.dimensions.count();
+    let along = |extent: DVec3| -> f64 {
+        (0..axes)
+            .map(|axis| (extent[axis] / spacing).max(0.0) + 1.0)
+            .product()
+    };
+    match &collider.shape {
+        Box { min, max } => {
+            let (min, max) = (min.as_dvec3(), max.as_dvec3());
+            along(max - min) - (along(max - min - 2.0 * depth - 2.0 * spacing)).max(0.0)
+        }
+        Sphere { radius, hollow, .. } => {
+            let outer = f64::from(*radius) + if *hollow { depth } else { 0.0 };
+            let layers = (depth / spacing).round();
+            let sphere = match frame.dimensions {
+                Dimensions::Two => std::f64::consts::TAU * outer / spacing,
+                Dimensions::Three => 4.0 * std::f64::consts::PI * (outer / spacing).powi(2),
+            };
+            layers * (sphere + 1.0)
+        }
+        Plane { .. } => {
+            let (low, high) = shell_bounds(collider, frame, depth);
+            let widest = (high - low).truncate().max_element().max((high - low).z);
+            2.0 * (depth / spacing + 1.0) * (widest / spacing).powi(axes as i32 - 1)
+        }
+        Mesh(mesh) => {
+            let (low, high) = shell_bounds(collider, frame, depth);
+            let corner = |index: u32| mesh.vertices[index as usize];
+            let areas = mesh
+                .triangles
+                .iter()
+                .map(|&[a, b, c]| 0.5 * (corner(b) - corner(a)).cross(corner(c) - corner(a)).length());
+            let shell = 2.0 * (areas.sum::<f64>() / (spacing * spacing) + 1.0) * (depth / spacing + 1.0);
+            let all = along(high - low);
+            if all > MOST_TRIED {
+                f64::INFINITY
+            } else {
+                all.min(shell)
+            }
+        }
+    }
+}
+
+/// Points of a lattice that are held against a mesh; more take minutes.
+const MOST_TRIED: f64 = 5e7;
+
+/// The box that [`lattice_shell`] goes through.
+fn shell_bounds(collider: &Collider, frame: &Frame, depth: f64) -> (DVec3, DVec3) {
+    let around = DVec3::splat(depth);
+    match &collider.shape {
+        super::ColliderShape::Mesh(mesh) => {
+            let (low, high) = mesh.bounds();
+            (low.max(frame.min - around), high.min(frame.max + around))
+        }
+        _ => (frame.min - around, frame.max + around),
     }
 }
 
@@ -197,18 +288,24 @@ fn box_shell(min: DVec3, max: DVec3, dimensions: Dimensions, spacing: f64, depth
             .map(|k| min[axis] + (k as f64 + 0.5) * length / count)
             .collect();
     }
+    let below = |point: DVec3, axis: usize| (point[axis] - min[axis]).min(max[axis] - point[axis]);
+    // Of a row deep inside, the ends alone lie near a face.
+    let near = |x: &f64| below(DVec3::splat(*x), 0) < depth;
+    let first_deep = ticks[0].iter().take_while(|x| near(x)).count();
+    let last_deep = ticks[0].len()
+        - ticks[0][first_deep..]
+            .iter()
+            .rev()
+            .take_while(|x| near(x))
+            .count();
     let mut points = Vec::new();
     for &y in &ticks[1] {
         for &z in &ticks[2] {
-            for &x in &ticks[0] {
-                let point = DVec3::new(x, y, z);
-                let below = (0..axes)
-                    .map(|axis| (point[axis] - min[axis]).min(max[axis] - point[axis]))
-                    .fold(f64::INFINITY, f64::min);
-                if below < depth {
-                    points.push(point);
-                }
-            }
+            let row = DVec3::new(0.0, y, z);
+            let is_deep = (1..axes).all(|axis| below(row, axis) >= depth);
+            let skipped = if is_deep { first_deep..last_deep } else { 0..0 };
+            let xs = ticks[0][..skipped.start].iter().chain(&ticks[0][skipped.end..]);
+            points.extend(xs.map(|&x| row.with_x(x)));
         }
     }
     points
@@ -261,14 +358,7 @@ fn fibonacci_sphere(center: DVec3, radius: f64, spacing: f64) -> impl Iterator<I
 /// Points of the fluid's lattice inside of a plane's or mesh's solid.
 fn lattice_shell(collider: &Collider, frame: &Frame, spacing: f64, depth: f64) -> Vec<DVec3> {
     let obstacle = Obstacle::new(&collider.shape, frame.dimensions);
-    let around = DVec3::splat(depth);
-    let (low, high) = match &collider.shape {
-        super::ColliderShape::Mesh(mesh) => {
-            let (low, high) = mesh.bounds();
-            (low.max(frame.min - around), high.min(frame.max + around))
-        }
-        _ => (frame.min - around, frame.max + around),
-    };
+    let (low, high) = shell_bounds(collider, frame, depth);
     let ticks = |axis: usize| -> Vec<f64> {
         if axis >= frame.dimensions.count() {
             return vec![0.0];
@@ -283,8 +373,9 @@ fn lattice_shell(collider: &Collider, frame: &Frame, spacing: f64, depth: f64) -
     let mut points = Vec::new();
     for &y in &ys {
         for &z in &zs {
-            for &x in &xs {
-                let point = DVec3::new(x, y, z);
+            let row = DVec3::new(0.0, y, z);
+            for &x in &xs[near_plane(&collider.shape, row, &xs, depth)] {
+                let point = row.with_x(x);
                 if obstacle.touches(point, 0.0) && !obstacle.is_deeper(point, depth) {
                     points.push(point);
                 }
@@ -292,4 +383,34 @@ fn lattice_shell(collider: &Collider, frame: &Frame, spacing: f64, depth: f64) -
         }
     }
     points
+}
+
+/// Places in a row along x that can lie in a plane's solid and no deeper than `depth`; all of them for other shapes.
+fn near_plane(shape: &super::ColliderShape, row: DVec3, xs: &[f64], depth: f64) -> std::ops::Range<usize> {
+    let super::ColliderShape::Plane { point, normal } = shape else {
+        return 0..xs.len();
+    };
+    let (point, normal) = (point.as_dvec3(), normal.as_dvec3());
+    let (Some(&first), Some(&last)) = (xs.first(), xs.last()) else {
+        return 0..0;
+    };
+    let height = |x: f64| normal.dot(row.with_x(x) - point);
+    // Heights rise or fall along the row, so that those in question stand side by side; rounding is given some room.
+    let room = 1e-6 * depth;
+    let is_in = |x: f64| (-depth - room..room).contains(&height(x));
+    let rises = height(last) > height(first);
+    let before = |limit: f64| {
+        xs.partition_point(|&x| {
+            if rises {
+                height(x) < limit
+            } else {
+                height(x) > limit
+            }
+        })
+    };
+    match rises {
+        true => before(-depth - room)..before(room),
+        false if height(first) == height(last) && !is_in(first) => 0..0,
+        false => before(room)..before(-depth - room),
+    }
 }

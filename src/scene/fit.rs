@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use glam::{DVec3, IVec3};
+use glam::DVec3;
 
 use super::frame::{Frame, Report};
 use super::model::Wall;
@@ -133,7 +133,7 @@ fn lost(path: &str, removed: usize, all: usize, other: &str, report: &mut Report
 /// Grains placed so far, by cells as wide as the least distance.
 pub struct Placed {
     least_distance: f64,
-    cells: HashMap<IVec3, Vec<(DVec3, usize)>>,
+    cells: HashMap<[i64; 3], Vec<(DVec3, usize)>>,
 }
 
 impl Placed {
@@ -144,8 +144,11 @@ impl Placed {
         }
     }
 
-    fn cell(&self, point: DVec3) -> IVec3 {
-        (point / self.least_distance).floor().as_ivec3()
+    fn cell(&self, point: DVec3) -> [i64; 3] {
+        (point / self.least_distance)
+            .floor()
+            .to_array()
+            .map(|cell| cell as i64)
     }
 
     pub fn add(&mut self, points: &[DVec3], body: usize) {
@@ -157,8 +160,8 @@ impl Placed {
 
     /// The body whose grain is too near.
     fn body_at(&self, point: DVec3) -> Option<usize> {
-        let home = self.cell(point);
-        let neighbors = (0..27).map(|i| home + IVec3::new(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+        let [x, y, z] = self.cell(point);
+        let neighbors = (0..27).map(|i| [x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1]);
         neighbors
             .filter_map(|cell| self.cells.get(&cell))
             .flatten()

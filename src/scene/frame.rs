@@ -1,23 +1,95 @@
 //! The scene's frame of reference: dimensions, origin, domain; and the problems and notes gathered on the way.
 
+use std::path::{Path, PathBuf};
+
 use glam::DVec3;
 
+use super::allowance::Allowance;
 use super::model::{Coordinates, SceneFile, Wall};
 use super::text::number;
 use super::{Dimensions, Domain};
 use crate::error::Problem;
 
 /// Metres; and the bound of velocities, m/s. Far beyond it, f32 cannot hold the square of a number.
-const LARGEST_COORDINATE: f64 = 1e9;
+pub const LARGEST_COORDINATE: f64 = 1e9;
+
+/// Share of a particle's radius by which f32 may round its coordinates before that is told, and before it is refused.
+const TOLD_ROUNDING: f64 = 1e-3;
+const MOST_ROUNDING: f64 = 0.1;
 
 /// What validation found so far.
 #[derive(Default)]
 pub struct Report {
     pub problems: Vec<Problem>,
     pub notes: Vec<String>,
+    pub allowance: Allowance,
+    /// Bytes that were asked for so far.
+    taken: f64,
 }
 
 impl Report {
+    pub fn new(allowance: Allowance) -> Self {
+        Self {
+            allowance,
+            ..Self::default()
+        }
+    }
+
+    /// Whether `count` particles may be placed, which are then counted; a problem at `path` where they are too many.
+    /// `says` comes before their number and `what` behind it; `help` says how to make them fewer.
+    pub fn room_for(&mut self, path: &str, says: &str, count: f64, what: &str, help: &str) -> bool {
+        let most = self.allowance.particles;
+        if count > most as f64 || count.is_nan() {
+            self.problem(
+                path,
+                format!("{says} {} {what}", number(count)),
+                format!("{help}: at most {most} {what}"),
+            );
+            return false;
+        }
+        let says = format!("{says} {} {what}", number(count));
+        self.memory_for(path, &says, Allowance::bytes_of(count), help)
+    }
+
+    /// Whether so many bytes of memory may be taken, which are then counted; a problem at `path` where not.
+    pub fn memory_for(&mut self, path: &str, says: &str, bytes: f64, help: &str) -> bool {
+        let (all, most) = (self.taken + bytes, self.allowance.memory as f64);
+        if all > most || all.is_nan() {
+            self.problem(
+                path,
+                format!(
+                    "{says}, and with that the scene takes about {} MB of memory",
+                    number((all / 1e6).ceil())
+                ),
+                format!(
+                    "{help}, or allow more than {} MB with --max-memory",
+                    number((most / 1e6).floor())
+                ),
+            );
+            return false;
+        }
+        self.taken = all;
+        true
+    }
+
+    /// The path of a file that a scene in `folder` names; a problem, and `None`, where it may not be read.
+    pub fn file(&mut self, path: &str, folder: &Path, file: &str) -> Option<PathBuf> {
+        let found = folder.join(file);
+        if self.allowance.reads(&found, folder) {
+            return Some(found);
+        }
+        let real = found.canonicalize().unwrap_or_else(|_| found.clone());
+        self.problem(
+            path,
+            format!("{file} lies outside of the scene's folder"),
+            format!(
+                "put it into that folder, or allow this one with --allow-read {}",
+                real.parent().unwrap_or(Path::new("/")).display()
+            ),
+        );
+        None
+    }
+
     pub fn problem(&mut self, path: impl Into<String>, what: impl Into<String>, help: impl Into<String>) {
         self.problems.push(Problem::new(path, what, help));
     }
@@ -134,7 +206,39 @@ impl Frame {
         };
         frame.min = frame.local(low);
         frame.max = frame.local(high);
+        frame.check_precision(file.radius(), report);
         frame
+    }
+
+    /// f32 has 24 digits, counted from the domain's center.
+    fn check_precision(&self, radius: f64, report: &mut Report) {
+        let half_width = self.axes().map(|(axis, _)| self.max[axis]).fold(0.0, f64::max);
+        let rounding = half_width * f64::from(f32::EPSILON) / 2.0;
+        if rounding > TOLD_ROUNDING * radius {
+            let what = format!(
+                "single precision rounds coordinates at the domain's ends by up to {} m, {} of a particle's radius",
+                number(rounding),
+                number(rounding / radius)
+            );
+            let most = |share: f64| number(4.0 * share * radius / f64::from(f32::EPSILON));
+            if rounding > MOST_ROUNDING * radius {
+                report.problem(
+                    "domain",
+                    what,
+                    format!(
+                        "make it at most {} m wide (at most {} m for results that rounding leaves alone), or the \
+                         particles larger",
+                        most(MOST_ROUNDING),
+                        most(TOLD_ROUNDING)
+                    ),
+                );
+            } else {
+                report.notes.push(format!(
+                    "domain: {what}; up to {} m wide it is less",
+                    most(TOLD_ROUNDING)
+                ));
+            }
+        }
     }
 
     /// Local coordinates of a point of the scene.

@@ -1,5 +1,6 @@
 //! The scenes that ship with the program, with the files they need.
 
+use std::io::Write as _;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
@@ -8,6 +9,7 @@ use sha2::{Digest, Sha256};
 
 use super::{json, load, text};
 use crate::error::{Error, Result};
+use crate::files;
 
 static SCENES: Dir = include_dir!("$CARGO_MANIFEST_DIR/assets/scenes");
 static MESHES: Dir = include_dir!("$CARGO_MANIFEST_DIR/assets/meshes");
@@ -40,6 +42,11 @@ pub fn find(name: &str) -> Option<&'static str> {
     SCENES.get_file(format!("{name}.json"))?.contents_utf8()
 }
 
+/// Whether a scene that ships has this text, to the letter.
+pub fn ships(text: &str) -> bool {
+    SCENES.files().any(|file| file.contents() == text.as_bytes())
+}
+
 /// A mesh that ships.
 #[derive(Debug, Clone)]
 pub struct Mesh {
@@ -70,7 +77,7 @@ pub fn entries() -> Result<Vec<Entry>> {
         let text = find(name).unwrap_or_default();
         let file = json::parse(text).unwrap_or_default();
         let word = |key: &str| file[key].as_str().unwrap_or_default().to_string();
-        let scene = load::parse(text, &format!("{name}.json"), &folder()?, &[])?;
+        let scene = load::parse(text, &format!("{name}.json"), &folder_for(text)?, &[])?;
         Ok(Entry {
             name: name.to_string(),
             description: word("description"),
@@ -90,6 +97,15 @@ pub fn unknown(name: &str) -> Error {
     Error::usage(format!("there is no scene or file \"{name}\""), help)
 }
 
+/// The folder that paths in the text of a scene that ships start from: that of [`folder`], where it names files. One that
+/// names none needs no folder that can be written.
+pub fn folder_for(text: &str) -> Result<PathBuf> {
+    match meshes_of(text).is_empty() {
+        true => Ok(folder().unwrap_or_else(|_| place())),
+        false => folder(),
+    }
+}
+
 /// The folder that paths in scenes that ship start from. What they name is unpacked once into the system's folder for
 /// temporary files, under a name that changes with the content.
 pub fn folder() -> Result<PathBuf> {
@@ -97,19 +113,9 @@ pub fn folder() -> Result<PathBuf> {
     if let Some(folder) = UNPACKED.get() {
         return Ok(folder.clone());
     }
-    let mut hash = Sha256::new();
-    for file in MESHES.files() {
-        hash.update(file.path().as_os_str().as_encoded_bytes());
-        hash.update(file.contents());
-    }
-    let tag: String = hash
-        .finalize()
-        .iter()
-        .take(8)
-        .map(|byte| format!("{byte:02x}"))
-        .collect();
-    let root = std::env::temp_dir().join(format!("sliceflow-assets-{tag}"));
-    let (scenes, meshes) = (root.join("scenes"), root.join("meshes"));
+    let scenes = place();
+    let root = scenes.parent().unwrap_or(&scenes).to_owned();
+    let meshes = root.join("meshes");
     let unpack = || {
         std::fs::create_dir_all(&scenes)?;
         std::fs::create_dir_all(&meshes)?;
@@ -120,7 +126,7 @@ pub fn folder() -> Result<PathBuf> {
             }
             // Renamed into place, so that a second program never reads half a file.
             let partial = target.with_extension(format!("partial-{}", std::process::id()));
-            std::fs::write(&partial, file.contents())?;
+            files::create(&partial)?.write_all(file.contents())?;
             std::fs::rename(&partial, &target)?;
         }
         Ok(())
@@ -134,4 +140,21 @@ pub fn folder() -> Result<PathBuf> {
         )
     })?;
     Ok(UNPACKED.get_or_init(|| scenes).clone())
+}
+
+/// Where [`folder`] is, whether it can be made or not.
+fn place() -> PathBuf {
+    let mut hash = Sha256::new();
+    for file in MESHES.files() {
+        hash.update(file.path().as_os_str().as_encoded_bytes());
+        hash.update(file.contents());
+    }
+    let tag: String = hash
+        .finalize()
+        .iter()
+        .take(8)
+        .map(|byte| format!("{byte:02x}"))
+        .collect();
+    let root = std::env::temp_dir().join(format!("sliceflow-assets-{tag}"));
+    root.join("scenes")
 }

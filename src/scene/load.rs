@@ -4,15 +4,35 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
+use super::allowance::Allowance;
 use super::model::SceneFile;
 use super::validate::validate;
 use super::{Scene, Written, check, json as json_text, library, set};
 use crate::error::{Error, Problem, Result};
+use crate::files;
 
-/// Loads a scene file, or a scene that ships when no file has this path. `overrides` are `path=value`.
+/// Of a scene's text: particles are in other files.
+const MOST_BYTES: u64 = 16 << 20;
+
+/// Loads a scene file, or a scene that ships when no file has this path. `overrides` are `path=value`. The scene is
+/// trusted: files that it names may lie anywhere.
 pub fn load(path: &Path, overrides: &[String]) -> Result<Scene> {
+    load_within(path, overrides, &Allowance::default())
+}
+
+/// The same, of a scene that is not trusted; a file that one of the overrides names may lie anywhere.
+pub fn load_within(path: &Path, overrides: &[String], allowance: &Allowance) -> Result<Scene> {
     if path.is_file() {
-        let text = std::fs::read_to_string(path).map_err(|reason| {
+        let length = path.metadata().map_or(0, |file| file.len());
+        if length > MOST_BYTES {
+            return Err(Error::file(
+                path,
+                "read",
+                format!("it has {length} bytes, and a scene at most {MOST_BYTES}"),
+                "put particles and meshes into files of their own, which the scene names",
+            ));
+        }
+        let text = files::read_text(path).map_err(|reason| {
             Error::file(
                 path,
                 "read",
@@ -21,26 +41,57 @@ pub fn load(path: &Path, overrides: &[String]) -> Result<Scene> {
             )
         })?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        return parse(&text, &path.display().to_string(), folder, overrides);
+        let allowance = &Allowance {
+            // A copy of one that ships is as good.
+            folders: allowance.folders.clone().filter(|_| !library::ships(&text)),
+            ..allowance.clone()
+        };
+        return parse_within(&text, &path.display().to_string(), folder, overrides, allowance);
     }
     let name = path.to_string_lossy();
-    match library::find(&name) {
-        Some(text) => parse(text, &format!("{name}.json"), &library::folder()?, overrides),
-        None => Err(library::unknown(&name)),
-    }
+    let Some(text) = library::find(&name) else {
+        return Err(library::unknown(&name));
+    };
+    // What it names besides comes from the command line.
+    let allowance = Allowance {
+        folders: None,
+        ..allowance.clone()
+    };
+    let file_name = format!("{name}.json");
+    parse_within(
+        text,
+        &file_name,
+        &library::folder_for(text)?,
+        overrides,
+        &allowance,
+    )
 }
 
-/// Parses a scene's JSON. `file_name` is for messages and the scene's name; paths in the scene start from `folder`.
+/// Parses a scene's JSON. `file_name` is for messages and the scene's name; paths in the scene start from `folder`, and may
+/// lead anywhere: such a scene is trusted.
 pub fn parse(text: &str, file_name: &str, folder: &Path, overrides: &[String]) -> Result<Scene> {
-    let mut scene = scene(text, file_name, folder, overrides).map_err(|problems| Error::Scene {
-        file: file_name.to_string(),
-        problems,
-    })?;
+    parse_within(text, file_name, folder, overrides, &Allowance::default())
+}
+
+/// The same, of a scene that is not trusted.
+pub fn parse_within(
+    text: &str,
+    file_name: &str,
+    folder: &Path,
+    overrides: &[String],
+    allowance: &Allowance,
+) -> Result<Scene> {
+    let mut scene =
+        scene(text, file_name, folder, overrides, allowance).map_err(|problems| Error::Scene {
+            file: file_name.to_string(),
+            problems,
+        })?;
     scene.written = Written {
         text: text.to_owned(),
         file_name: file_name.to_owned(),
         folder: folder.to_owned(),
         overrides: overrides.to_vec(),
+        allowance: allowance.clone(),
     };
     Ok(scene)
 }
@@ -50,6 +101,7 @@ fn scene(
     file_name: &str,
     folder: &Path,
     overrides: &[String],
+    allowance: &Allowance,
 ) -> std::result::Result<Scene, Vec<Problem>> {
     let mut value = json(text).map_err(|problem| vec![problem])?;
     let failed: Vec<_> = overrides
@@ -74,7 +126,11 @@ fn scene(
         let stem = Path::new(file_name).file_stem().unwrap_or_default();
         file.name = stem.to_string_lossy().into_owned();
     }
-    validate(file, folder)
+    let mut allowance = allowance.clone();
+    if let Some(folders) = &mut allowance.folders {
+        folders.extend(set::words(overrides).map(|word| folder.join(word)));
+    }
+    validate(file, folder, allowance)
 }
 
 /// A scene's text as JSON, before it is checked.

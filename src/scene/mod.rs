@@ -2,6 +2,7 @@
 //!
 //! Everything in a [`Scene`] is finite, in SI units, and relative to [`Scene::origin`], which was subtracted in f64.
 
+pub mod allowance;
 mod bgeo;
 mod bodies;
 pub mod boundary;
@@ -214,6 +215,7 @@ pub struct Written {
     pub folder: PathBuf,
     /// `path=value`.
     pub overrides: Vec<String>,
+    pub allowance: allowance::Allowance,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -125,6 +125,15 @@ impl<'a> Array<'a> {
         }
     }
 
+    /// The type for a message, which quotes nothing but what looks like a type.
+    pub fn told_kind(&self) -> &str {
+        let is_type = |c: char| c.is_ascii_alphanumeric() || "<>=|[](), '_".contains(c);
+        match self.kind.len() <= 60 && self.kind.chars().all(is_type) {
+            true => &self.kind,
+            false => "no numbers",
+        }
+    }
+
     /// Whether it holds float32 or float64.
     pub fn is_float(&self) -> bool {
         self.size().is_some() && self.kind.contains('f')

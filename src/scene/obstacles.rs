@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use super::frame::{Frame, Report};
+use super::frame::{Frame, LARGEST_COORDINATE, Report};
 use super::mesh::Mesh;
 use super::mesh::surface::Surface;
 use super::motion::{MOST_PIECES, Wave, smooth_path};
@@ -119,11 +119,12 @@ fn shape(
     folder: &Path,
     report: &mut Report,
 ) -> Option<ColliderShape> {
+    let sound = report.problems.len();
     let mut point = |key: &str, given: &model::Coordinates| {
         let point = report.vector(&format!("{path}.{key}"), given, frame.dimensions);
         frame.local(point)
     };
-    match given {
+    let shape = match given {
         model::ColliderShape::Plane { point: at, normal } => {
             let at = point("point", at);
             let normal = report.vector(&format!("{path}.normal"), normal, frame.dimensions);
@@ -162,7 +163,8 @@ fn shape(
         model::ColliderShape::Mesh { file, placement } => {
             mesh(path, file, placement, frame, folder, report).map(ColliderShape::Mesh)
         }
-    }
+    };
+    shape.filter(|_| report.problems.len() == sound)
 }
 
 /// Whether a box's corners are in order; a problem if not.
@@ -195,7 +197,9 @@ pub fn mesh(
         );
         return None;
     }
-    let mesh = match Mesh::load(&folder.join(file)) {
+    let sound = report.problems.len();
+    let found = report.file(&format!("{path}.file"), folder, file)?;
+    let mesh = match Mesh::load(&found) {
         Ok(mesh) => mesh,
         Err(reason) => {
             report.problem(format!("{path}.file"), reason, FILE_HELP);
@@ -212,7 +216,19 @@ pub fn mesh(
         return None;
     }
     let (scale, rotate, translate) = transform(path, placement, frame, report);
-    Some(mesh.placed(scale, rotate, translate))
+    let mesh = mesh.placed(scale, rotate, translate);
+    let (low, high) = mesh.bounds();
+    if low.min(-high).min_element() < -LARGEST_COORDINATE {
+        report.problem(
+            format!("{path}.placement"),
+            format!("the mesh reaches to {} m", number((-low).max(high).max_element())),
+            format!(
+                "make it smaller, or move it nearer: coordinates stay below {} m",
+                number(LARGEST_COORDINATE)
+            ),
+        );
+    }
+    (report.problems.len() == sound).then_some(mesh)
 }
 
 pub const FILE_HELP: &str = "check the path, which is relative to the scene file, and the file itself";

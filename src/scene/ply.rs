@@ -1,13 +1,15 @@
 //! Reads from a PLY file what scenes need: the numbers of its vertices, and its faces.
 
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult, PropertyType};
+use ply_rs_bw::ply::{
+    ElementDef, Encoding, Property, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,
+};
 
 use super::particle_file::NamedColumn;
+use crate::files;
 
 pub struct PlyFile {
     /// The numbers that each vertex has, as the file names them.
@@ -17,7 +19,9 @@ pub struct PlyFile {
 }
 
 pub fn read(path: &Path) -> Result<PlyFile, String> {
-    let file = File::open(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let open = |error| format!("{}: {error}", path.display());
+    let file = files::open(path).map_err(open)?;
+    let length = file.metadata().map_err(open)?.len();
     let explain = |error: ParseError| {
         // Its first line tells where; the others repeat the text.
         let error = error.to_string();
@@ -35,6 +39,15 @@ pub fn read(path: &Path) -> Result<PlyFile, String> {
         faces: Vec::new(),
     };
     for (name, element) in &header.elements {
+        let least = least_bytes(element, &header.encoding).saturating_mul(element.count as u64);
+        if element.properties.is_empty() && element.count > 0 || least > length.saturating_add(1) {
+            return Err(format!(
+                "{} is cut off or wrong: it announces {} times `{name}`, which is more than its {length} bytes hold; export \
+                 it again",
+                path.display(),
+                element.count
+            ));
+        }
         if name == "face" {
             let faces = Parser::<Face>::new()
                 .read_payload_for_element(&mut reader, element, &header)
@@ -48,7 +61,8 @@ pub fn read(path: &Path) -> Result<PlyFile, String> {
                 let numbers = element.properties.iter();
                 let numbers =
                     numbers.filter(|(_, property)| matches!(property.data_type, PropertyType::Scalar(_)));
-                let column = |place: usize| rows.iter().map(|row| row.0[place]).collect();
+                let value = |row: &Row, place: usize| row.0.get(place).copied().unwrap_or(f64::NAN);
+                let column = |place: usize| rows.iter().map(|row| value(row, place)).collect();
                 let named = numbers
                     .enumerate()
                     .map(|(place, (name, _))| (name.clone(), column(place)));
@@ -57,6 +71,24 @@ pub fn read(path: &Path) -> Result<PlyFile, String> {
         }
     }
     Ok(ply)
+}
+
+/// Bytes that one element takes at least: a digit and what parts it from the next, or its numbers and the lengths of its
+/// lists.
+fn least_bytes(element: &ElementDef, encoding: &Encoding) -> u64 {
+    let width = |kind: &ScalarType| match kind {
+        ScalarType::Char | ScalarType::UChar => 1,
+        ScalarType::Short | ScalarType::UShort => 2,
+        ScalarType::Int | ScalarType::UInt | ScalarType::Float => 4,
+        ScalarType::Double => 8,
+    };
+    let properties = element.properties.iter();
+    let bytes = properties.map(|(_, property)| match (encoding, &property.data_type) {
+        (Encoding::Ascii, _) => 2,
+        (_, PropertyType::Scalar(kind)) => width(kind),
+        (_, PropertyType::List(length, _)) => width(length),
+    });
+    bytes.sum()
 }
 
 /// An element's numbers in the order of its properties, without its lists.

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use serde_json::json;
 
-use super::bodies::MOST_PARTICLES;
+use super::allowance::MOST_PARTICLES;
 use super::model::{Dashpot, Integrator, Render, Wall};
 use super::{
     Coloring, Contact, Dimensions, Domain, Grains, Matter, Neighbors, Particles, Scene, Time, column,
@@ -13,8 +13,10 @@ use crate::error::{Error, Result};
 /// Search radii, in the points' unit: their squares stay far inside f32.
 const SMALLEST_RADIUS: f64 = 1e-15;
 const LARGEST_RADIUS: f64 = 1e15;
-/// Coordinates are rounded to f32 around the center; a search notes it when that is more than this share of its radius.
-const TELLING_ROUNDING: f64 = 1e-4;
+/// Coordinates are rounded to f32 around the center; a search notes it when that is more than this share of its radius, and
+/// is refused when it is more than the other.
+const TELLING_ROUNDING: f64 = 1e-6;
+const MOST_ROUNDING: f64 = 1e-3;
 
 impl Scene {
     /// Points at rest and the search for all pairs nearer than `search_radius`; ids are 0, 1, 2, … in their order.
@@ -48,7 +50,24 @@ impl Scene {
         }
 
         let mut notes = Vec::new();
-        let rounding = f64::from(f32::EPSILON) / 2.0 * f64::from(max.max_element());
+        // Nothing is lost of coordinates that f32 holds.
+        let lost = |p: &DVec3| {
+            let local = flat(p) - origin;
+            (local - local.as_vec3().as_dvec3()).abs().max_element()
+        };
+        let rounding = points.iter().map(lost).fold(0.0, f64::max);
+        // So wide, not even voxels could be told apart.
+        let is_too_wide = f64::from(max.max_element() * f32::EPSILON) > search_radius;
+        if rounding > MOST_ROUNDING * search_radius || is_too_wide {
+            return Err(Error::usage(
+                format!(
+                    "the points lie too far apart for f32: it rounds coordinates so far from their center by up to {:.1e} of \
+                     the search radius, and counts would be wrong",
+                    f64::from(max.max_element() * f32::EPSILON / 2.0) / search_radius
+                ),
+                "search each cluster by itself, or take a larger radius",
+            ));
+        }
         if rounding > TELLING_ROUNDING * search_radius {
             notes.push(format!(
                 "coordinates are rounded to f32 around the center of the points, here by up to {:.1e} of the search \
@@ -206,8 +225,22 @@ mod tests {
 
     #[test]
     fn rounding_that_matters_is_noted() {
-        let points = [DVec3::ZERO, DVec3::X * 1e5];
-        assert_eq!(of(&points, Dimensions::Three, 1.0).unwrap().notes.len(), 1);
+        let notes = |x: f64| {
+            let points = [DVec3::ZERO, DVec3::new(0.3, 0.0, 0.0), DVec3::X * x];
+            of(&points, Dimensions::Three, 1.0).map(|scene| scene.notes.len())
+        };
+        assert_eq!(notes(0.5).unwrap(), 0);
+        assert_eq!(notes(1e4).unwrap(), 1);
+        for far in [1e6, 1e8] {
+            let told = notes(far).unwrap_err().to_string();
+            assert!(
+                told.contains("too far apart") && told.contains("by itself"),
+                "{told}"
+            );
+        }
+        // f32 holds these, and loses nothing.
+        let whole = [DVec3::ZERO, DVec3::X * 1e5];
+        assert!(of(&whole, Dimensions::Three, 1.0).unwrap().notes.is_empty());
     }
 
     #[test]

@@ -4,7 +4,6 @@ use glam::{DVec3, Vec3};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use super::bodies::MOST_PARTICLES;
 use super::changes;
 use super::contact::Law;
 use super::emission;
@@ -224,15 +223,13 @@ impl<'a> Unroll<'a> {
             drop.velocity.as_ref(),
             self.frame.dimensions,
         );
-        self.check_inside(path, "the ball", center, DVec3::splat(drop.radius), report);
+        if !self.check_inside(path, "the ball", center, DVec3::splat(drop.radius), report) {
+            return None;
+        }
         let grain = self.file.radius();
         let count = (drop.radius / grain).powi(self.frame.dimensions.count() as i32);
-        if count > MOST_PARTICLES as f64 {
-            report.problem(
-                format!("{path}.radius"),
-                format!("a ball of about {} particles", number(count)),
-                format!("make it smaller: at most {MOST_PARTICLES} particles"),
-            );
+        let place = format!("{path}.radius");
+        if !report.room_for(&place, "a ball of about", count, "particles", "make it smaller") {
             return None;
         }
         let region = Region::Sphere {
@@ -299,7 +296,21 @@ impl<'a> Unroll<'a> {
         }
         let across = (DVec3::ONE - axis * axis).max(DVec3::ZERO);
         let extent = across.map(f64::sqrt) * (emitter.radius - grain).max(0.0) + grain;
-        self.check_inside(&path, "its first layer", center, extent, report);
+        if !self.check_inside(&path, "its first layer", center, extent, report) {
+            return;
+        }
+        let across = 2.0 * emitter.radius / spacing + 1.0;
+        let in_layer = across.powi(self.frame.dimensions.count() as i32 - 1);
+        let place = format!("{path}.radius");
+        if !report.room_for(
+            &place,
+            "a layer of about",
+            in_layer,
+            "particles",
+            "make it narrower",
+        ) {
+            return;
+        }
         let points = match emission::layer(
             center,
             axis,
@@ -323,13 +334,14 @@ impl<'a> Unroll<'a> {
         let every = spacing / velocity.length();
         let flows = emission::flows(emitter.on, &self.switches[index], end);
         let layers = |(from, to): &(f64, f64)| ((to - from) / every - 1e-9).ceil();
-        let grains = flows.iter().map(layers).sum::<f64>() * points.len() as f64;
-        if grains > MOST_PARTICLES as f64 {
-            report.problem(
-                &path,
-                format!("lets in {} particles until the run ends", number(grains)),
-                format!("make it slower or narrower: at most {MOST_PARTICLES} particles"),
-            );
+        // A layer takes room besides its particles.
+        let each = points.len() as f64;
+        let grains = flows.iter().map(layers).sum::<f64>() * each;
+        let help = "make it slower or narrower, or the run shorter";
+        let in_all = "particles until the run ends";
+        if !report.room_for(&path, "lets in", grains, in_all, help)
+            || !report.room_for(&path, "lets in", grains / each, "layers until the run ends", help)
+        {
             return;
         }
         let rotate = self
@@ -392,7 +404,16 @@ impl<'a> Unroll<'a> {
         }
     }
 
-    fn check_inside(&self, path: &str, thing: &str, center: DVec3, extent: DVec3, report: &mut Report) {
+    /// Whether something lies inside of the domain; a problem where not.
+    fn check_inside(
+        &self,
+        path: &str,
+        thing: &str,
+        center: DVec3,
+        extent: DVec3,
+        report: &mut Report,
+    ) -> bool {
+        let sound = report.problems.len();
         for (axis, name) in self.frame.axes() {
             let below = self.frame.min[axis] - (center - extent)[axis];
             let above = (center + extent)[axis] - self.frame.max[axis];
@@ -408,6 +429,7 @@ impl<'a> Unroll<'a> {
                 );
             }
         }
+        report.problems.len() == sound
     }
 }
 

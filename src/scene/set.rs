@@ -5,6 +5,27 @@ use serde_json::{Map, Value};
 use super::json;
 use crate::error::Problem;
 
+/// All texts in the values of overrides.
+pub fn words(overrides: &[String]) -> impl Iterator<Item = String> {
+    let values = overrides.iter().filter_map(|one| one.split_once('='));
+    let mut open: Vec<Value> = values.map(|(_, text)| value(text)).collect();
+    std::iter::from_fn(move || {
+        loop {
+            match open.pop()? {
+                Value::String(word) => return Some(word),
+                Value::Array(values) => open.extend(values),
+                Value::Object(values) => open.extend(values.into_iter().map(|(_, value)| value)),
+                _ => {}
+            }
+        }
+    })
+}
+
+/// JSON, or text where it is none.
+fn value(text: &str) -> Value {
+    json::parse(text).unwrap_or_else(|_| Value::String(text.trim().to_string()))
+}
+
 /// Applies one override such as `grains.radius=0.01` or `bodies[0].velocity=[0,1,0]`.
 ///
 /// The value is JSON, or text when it is not JSON, so words need no quotes. Objects on the way are created; list
@@ -24,7 +45,7 @@ pub fn apply(scene: &mut Value, assignment: &str) -> Result<(), Problem> {
             "write keys with dots and list places in brackets: bodies[0].shape.radius".into(),
         )
     })?;
-    let value = json::parse(text).unwrap_or_else(|_| Value::String(text.trim().to_string()));
+    let value = value(text);
     let mut here = scene;
     let mut walked = String::new();
     for step in steps {

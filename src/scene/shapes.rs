@@ -136,7 +136,7 @@ pub fn random(
 
 impl Region {
     /// m³, or m² in 2D.
-    fn content(&self, dimensions: Dimensions) -> f64 {
+    pub fn content(&self, dimensions: Dimensions) -> f64 {
         match (self, dimensions) {
             (Self::Box { min, max }, Dimensions::Two) => (max - min).truncate().element_product(),
             (Self::Box { min, max }, Dimensions::Three) => (max - min).element_product(),

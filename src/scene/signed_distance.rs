@@ -3,7 +3,7 @@
 use std::num::NonZero;
 use std::thread;
 
-use glam::{DVec3, USizeVec3};
+use glam::DVec3;
 
 use super::mesh::{Mesh, surface::Surface};
 
@@ -23,9 +23,8 @@ impl SignedDistance {
     /// Distances from the nodes of a grid that reaches `margin` metres beyond the mesh; exact up to `margin`, and ±`margin`
     /// farther away. The mesh must be closed and have a face.
     pub fn new(mesh: &Mesh, cell: f64, margin: f64) -> Self {
-        let (low, high) = mesh.bounds();
-        let min = low - margin;
-        let size = ((high + margin - min) / cell).ceil().as_usizevec3() + USizeVec3::ONE;
+        let min = mesh.bounds().0 - margin;
+        let size = Self::size(mesh, cell, margin).as_usizevec3();
         let mut values = vec![0.0; size.element_product()];
 
         let surface = Surface::new(mesh);
@@ -49,6 +48,12 @@ impl SignedDistance {
             size: size.as_uvec3().to_array(),
             values,
         }
+    }
+
+    /// Nodes of that grid along x, y and z, before it is made.
+    pub fn size(mesh: &Mesh, cell: f64, margin: f64) -> DVec3 {
+        let (low, high) = mesh.bounds();
+        ((high + margin - (low - margin)) / cell).ceil() + 1.0
     }
 
     /// Metres, interpolated between the eight nodes around `point`; outside the grid, as at the grid's nearest point.

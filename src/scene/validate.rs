@@ -5,7 +5,8 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use super::bodies::{self, MOST_PARTICLES};
+use super::allowance::Allowance;
+use super::bodies;
 use super::boundary::{self, BoundaryParticles};
 use super::changes;
 use super::coloring::{self, Known};
@@ -30,8 +31,12 @@ use crate::error::Problem;
 
 /// Checks what the schema cannot say, completes what was left out, and turns the rest into numbers. Files named in
 /// the scene are looked up in `folder`.
-pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<Problem>> {
-    let mut report = Report::default();
+pub(super) fn validate(
+    mut file: SceneFile,
+    folder: &Path,
+    allowance: Allowance,
+) -> Result<Scene, Vec<Problem>> {
+    let mut report = Report::new(allowance);
     let fillings = filling::fit_spacing(&mut file, &mut report);
     let frame = Frame::new(&file, &mut report);
     if !report.problems.is_empty() {
@@ -94,6 +99,7 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
                     boundary::sample(&file, &frame, &colliders, fluid.wall_depth(), &mut report);
             }
             let surface = all_sound
+                && report.problems.is_empty()
                 && (schedule.adds()
                     || free_surface::there(
                         &particles.position,
@@ -140,6 +146,20 @@ pub(super) fn validate(mut file: SceneFile, folder: &Path) -> Result<Scene, Vec<
             "fluid.shifting",
             "particles are shifted by `symplectic_euler` only",
             "leave it out, or set time.integrator to `symplectic_euler`",
+        );
+    }
+    let samples = file
+        .time
+        .sensor_interval
+        .map_or(1.0, |interval| 1.0 / (time.fps * interval));
+    if !file.sensors.is_empty() && samples > MOST_SAMPLES {
+        report.problem(
+            "time.sensor_interval",
+            format!("{} samples with each frame", number(samples.round())),
+            format!(
+                "make it longer: at most {} samples are taken with a frame",
+                number(MOST_SAMPLES)
+            ),
         );
     }
     let sensors = sensors::sensors(
@@ -292,14 +312,15 @@ fn capacity(
             "let an event or emitter act earlier, or add a body",
         );
     }
-    if all > MOST_PARTICLES {
+    let most = report.allowance.particles;
+    if all > most {
         report.problem(
             "",
             format!("{all} particles in all"),
-            format!("stay at or below {MOST_PARTICLES}: make bodies smaller or particles larger"),
+            format!("stay at or below {most}: make bodies smaller or particles larger"),
         );
     }
-    all.min(MOST_PARTICLES) as u32
+    all.min(most) as u32
 }
 
 fn neighbors(file: &SceneFile, frame: &Frame, report: &mut Report) -> Neighbors {
@@ -359,6 +380,9 @@ fn neighbors(file: &SceneFile, frame: &Frame, report: &mut Report) -> Neighbors 
     }
     neighbors
 }
+
+/// Of sensors, from one frame to the next.
+const MOST_SAMPLES: f64 = 1e5;
 
 /// Pixels along a side.
 const SMALLEST_FRAME: u32 = 16;

@@ -1,16 +1,21 @@
 //! Reads points from VTK's XML format for `PolyData` (.vtp), in the form in which Sliceflow writes it: arrays appended as
 //! raw bytes, little-endian, not compressed.
 
-use std::fs;
 use std::path::Path;
 
 use roxmltree::{Document, Node};
 
 use super::particle_file::{NamedColumn, Table, columns_of, is_known};
+use crate::files;
+
+/// Numbers of an attribute.
+const MOST_COMPONENTS: usize = 64;
+/// Numbers in memory per byte of a file, where pieces lack attributes.
+const MOST_FILLED: usize = 8;
 
 pub(super) fn read(path: &Path) -> Result<Table, String> {
     let name = path.display();
-    let bytes = fs::read(path).map_err(|reason| format!("{name}: {reason}"))?;
+    let bytes = files::read(path).map_err(|reason| format!("{name}: {reason}"))?;
     parse(&bytes).map_err(|what| {
         format!(
             "{name}: {what}; save it as VTK PolyData (.vtp) with its data appended raw, without compression, or as PLY"
@@ -39,9 +44,14 @@ fn parse(bytes: &[u8]) -> Result<Table, String> {
     };
 
     let mut columns: Vec<NamedColumn> = Vec::new();
-    let mut rows = 0;
+    let mut rows: usize = 0;
+    let too_many = || "it announces more numbers than it holds".to_owned();
+    // A number has a byte at least, so that what is still to come can hold no more than these.
+    let mut left = data.bytes.len();
     for piece in file.descendants().filter(|node| node.has_tag_name("Piece")) {
         let count: usize = number(piece, "NumberOfPoints")?;
+        let all = rows.checked_add(count).filter(|&all| all <= data.bytes.len());
+        let all = all.ok_or_else(too_many)?;
         let arrays = |within| {
             let parent = piece.children().find(move |node| node.has_tag_name(within));
             parent
@@ -52,16 +62,25 @@ fn parse(bytes: &[u8]) -> Result<Table, String> {
         let points = arrays("Points").map(|array| (array, ["x", "y", "z"].map(String::from).into()));
         let attributes = arrays("PointData").map(|array| {
             let components = number(array, "NumberOfComponents").unwrap_or(1);
-            (
-                array,
-                columns_of(array.attribute("Name").unwrap_or_default(), components),
-            )
+            let name = array.attribute("Name").unwrap_or_default();
+            let names = match components {
+                0..=MOST_COMPONENTS => columns_of(name, components),
+                _ => Vec::new(),
+            };
+            (array, names)
         });
         for (array, names) in points.chain(attributes) {
+            if names.is_empty() {
+                return Err(format!(
+                    "it has an array of no or more than {MOST_COMPONENTS} components"
+                ));
+            }
             if !names.iter().any(|name| is_known(name)) && !Data::can_read(array) {
                 continue;
             }
-            let values = data.array(array, count * names.len())?;
+            let numbers = count.checked_mul(names.len()).ok_or_else(too_many)?;
+            left = left.checked_sub(numbers).ok_or_else(too_many)?;
+            let values = data.array(array, numbers)?;
             for (component, name) in names.iter().enumerate() {
                 let place = columns
                     .iter()
@@ -78,7 +97,11 @@ fn parse(bytes: &[u8]) -> Result<Table, String> {
                 }
             }
         }
-        rows += count;
+        rows = all;
+        // Where pieces lack what others have, zeros stand for it; that these are most of a file is a trick.
+        if rows.saturating_mul(columns.len()) > data.bytes.len().saturating_mul(MOST_FILLED) {
+            return Err(too_many());
+        }
     }
     for (_, column) in &mut columns {
         column.resize(rows, 0.0);
@@ -104,10 +127,13 @@ impl Data<'_> {
         let offset: usize = number(array, "offset")?;
         let kind = array.attribute("type").unwrap_or_default();
         let width = width(kind).ok_or_else(|| format!("{name} has the type `{kind}`"))?;
-        let first = offset + self.length_bytes;
-        let values = self
-            .bytes
-            .get(first..first + count * width)
+        let first = offset.checked_add(self.length_bytes);
+        let end = first
+            .zip(count.checked_mul(width))
+            .and_then(|(first, bytes)| first.checked_add(bytes));
+        let values = first
+            .zip(end)
+            .and_then(|(first, end)| self.bytes.get(first..end))
             .ok_or_else(|| format!("{name} is cut off"))?;
         let value = |bytes: &[u8]| match kind {
             "Float64" => f64::from_le_bytes(fixed(bytes)),

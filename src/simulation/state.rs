@@ -13,9 +13,14 @@ use crate::gpu::readback;
 use crate::neighbors::layout::ListState;
 use crate::neighbors::{Grid, lists};
 use crate::physics::layout::{Clock, Overflow, Packed, StepControl, packed};
-use crate::scene::field::{Field, Kind, Newcomers, contact_slots, contact_words};
+use crate::scene::allowance::MOST_PARTICLES;
+use crate::scene::field::{FIELDS, Field, Kind, Newcomers, contact_slots, contact_words};
 use crate::scene::model::Axis;
 use crate::scene::{Action, Dimensions, Particles, Scene};
+
+/// Frames and steps of any run; numbers stay far inside 32 bits.
+const MOST_FRAMES: u32 = 1 << 21;
+const MOST_STEPS: u32 = 1 << 31;
 
 /// What the step after a frame depends on.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,6 +60,106 @@ impl State {
         }
     }
 
+    /// Whether a run of `scene` can go on from here: what is wrong where it cannot. A state comes from a file, and a file
+    /// may say anything.
+    pub fn check(&self, scene: &Scene) -> std::result::Result<(), String> {
+        let wrong = |what: &str| Err(format!("does not fit the scene: {what}"));
+        if self.dimensions != scene.dimensions {
+            return wrong("it has another number of dimensions");
+        }
+        if self.frame >= scene.time.frames.max(MOST_FRAMES) {
+            return wrong("no run has so many frames");
+        }
+        if !self.origin.is_finite() {
+            return wrong("its origin is nowhere");
+        }
+        let walls = scene.boundary.len() as u64;
+        if !(walls..=MOST_PARTICLES).contains(&u64::from(self.particles)) {
+            return wrong("it has too few particles, or too many");
+        }
+        let mut names: Vec<&str> = self.buffers.iter().map(|(name, _)| name.as_str()).collect();
+        names.sort_unstable();
+        if names.windows(2).any(|pair| pair[0] == pair[1]) {
+            return wrong("it has two buffers of one name");
+        }
+        if self.particles > 0
+            && ["position", "velocity", "id"]
+                .iter()
+                .any(|name| !names.contains(name))
+        {
+            return wrong("it has no positions, velocities or ids");
+        }
+        for (name, bytes) in &self.buffers {
+            let each = match name.as_str() {
+                "clock" => Some((Clock::LAYOUT.size, 1)),
+                "step_control" => Some((StepControl::LAYOUT.size, 1)),
+                "overflow" => Some((Overflow::LAYOUT.size, 1)),
+                "grid" => Some((Grid::LAYOUT.size, 1)),
+                name => {
+                    let mut fields = FIELDS.iter().chain(&scene.more_fields);
+                    let field = fields.find(|field| field.name == name);
+                    field.map(|field| {
+                        (
+                            field.kind.bytes(self.dimensions) as usize,
+                            self.particles as usize,
+                        )
+                    })
+                }
+            };
+            match each {
+                Some((size, count)) if size * count == bytes.len() => {}
+                Some(_) => return wrong(&format!("`{name}` has {} bytes", bytes.len())),
+                None => return wrong(&format!("particles have no `{name}`")),
+            }
+        }
+        let mut ids = self.ids();
+        ids.sort_unstable();
+        let last = ids.last().copied().unwrap_or_default();
+        if ids.windows(2).any(|pair| pair[0] == pair[1]) || u64::from(last) >= MOST_PARTICLES {
+            return wrong("two particles have one id, or an id is too large");
+        }
+        let materials = scene.fluid().map_or(1, |fluid| fluid.materials.len());
+        let of: Vec<u32> = bytemuck::pod_collect_to_vec(self.buffer("material").unwrap_or_default());
+        if scene.has_field("material") && of.iter().any(|&material| material as usize >= materials) {
+            return wrong("a particle is of no material");
+        }
+        let clock: Clock = self
+            .buffer("clock")
+            .map_or(Clock::default(), bytemuck::pod_read_unaligned);
+        if clock.step > MOST_STEPS || clock.step_in_segment > MOST_STEPS {
+            return wrong("no run has so many steps");
+        }
+        let grid: Grid = self
+            .buffer("grid")
+            .map_or(Grid::default(), bytemuck::pod_read_unaligned);
+        if grid.axis > 2 {
+            return wrong("its grid has no such axis");
+        }
+        let control = self
+            .buffer("step_control")
+            .map(bytemuck::pod_read_unaligned::<StepControl>);
+        let is_sound = |control: StepControl| {
+            let lengths = [control.tick, control.step, control.next_step, control.wanted];
+            lengths.iter().all(|length| length.is_finite() && *length >= 0.0)
+                && (control.limit as usize) < control.made.len()
+                && control.stalled == 0
+        };
+        if !control.is_none_or(is_sound) {
+            return wrong("its steps have no length");
+        }
+        Ok(())
+    }
+
+    /// Whether all positions, velocities and accelerations are numbers, as in every state that a run has saved.
+    pub fn is_finite(&self) -> bool {
+        let vectors = ["position", "velocity", "acceleration"].map(|name| self.vectors(name));
+        vectors
+            .iter()
+            .flatten()
+            .flatten()
+            .all(|vector| vector.is_finite())
+    }
+
     /// Bytes of a buffer, if the state has it.
     pub fn buffer(&self, name: &str) -> Option<&[u8]> {
         let found = self.buffers.iter().find(|(known, _)| known == name);
@@ -69,7 +174,8 @@ impl State {
 
     /// A buffer of vectors, one a slot; z is 0 in 2D.
     pub fn vectors(&self, name: &str) -> Option<Vec<Vec3>> {
-        let stored: Vec<Packed> = bytemuck::pod_collect_to_vec(self.buffer(name)?);
+        let whole = self.buffer(name)?.chunks_exact(size_of::<Packed>());
+        let stored: Vec<Packed> = whole.map(bytemuck::pod_read_unaligned).collect();
         Some(
             stored
                 .into_iter()
@@ -80,7 +186,8 @@ impl State {
 
     /// Each slot's particle.
     pub fn ids(&self) -> Vec<u32> {
-        bytemuck::pod_collect_to_vec(self.buffer("id").unwrap_or_default())
+        let whole = self.buffer("id").unwrap_or_default().chunks_exact(4);
+        whole.map(bytemuck::pod_read_unaligned).collect()
     }
 
     /// The same state in coordinates that have their zero at `origin`.
@@ -209,7 +316,25 @@ impl Simulation {
 
     /// Puts a state back: [`Simulation::next_frame`] then makes the frame after it. The scene may be another one
     /// than the state's, with the same number of dimensions and room for [`State::capacity`] particles.
+    ///
+    /// # Errors
+    ///
+    /// Where the state does not fit the scene or has more particles than there is room for.
     pub fn restore(&mut self, state: &State) -> Result<()> {
+        let checked = state.check(&self.scene);
+        let checked = checked.and_then(|()| match state.particles {
+            needed if needed <= self.scene.capacity => Ok(()),
+            needed => Err(format!(
+                "needs room for {needed} particles, and the scene has {}",
+                self.scene.capacity
+            )),
+        });
+        checked.map_err(|what| {
+            Error::usage(
+                format!("the state of frame {} {what}", state.frame),
+                "was it changed, or written by another run? start from another checkpoint, or begin a new run",
+            )
+        })?;
         self.next_frame = state.frame + 1;
         self.count = state.particles;
         self.happened = happened(&self.scene, state.frame);

@@ -25,7 +25,7 @@ impl FileEnd {
         if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
             std::fs::create_dir_all(folder).map_err(|reason| disk::failed(folder, "create", reason))?;
         }
-        let file = File::create(path).map_err(|reason| disk::failed(path, "create", reason))?;
+        let file = crate::files::create(path).map_err(|reason| disk::failed(path, "create", reason))?;
         let encoder = Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, file)
             .map_err(|error| disk::failed(path, "write", reason(error)))?;
         Ok(Self {

@@ -44,6 +44,15 @@ impl Found {
                     "replace it with --force, or choose another folder with --out",
                 ));
             }
+            if file.exists() && !super::is_table(&file) {
+                return Err(Error::usage(
+                    format!(
+                        "{} is no table of sensors that Sliceflow has written",
+                        file.display()
+                    ),
+                    "move it to another place, or choose another folder with --out",
+                ));
+            }
             crate::output::write_file(&file, text.as_bytes())?;
         }
         super::draw(&self.scene, &folder)

@@ -13,13 +13,18 @@ use splashsurf_lib::nalgebra::Vector3;
 use splashsurf_lib::{Parameters, reconstruct_surface};
 
 use super::bar::Bar;
+use super::folder::is_surface;
 use super::{disk, interrupt};
 use crate::error::{Error, Result};
+use crate::files;
 use crate::scene::Dimensions;
 use crate::scene::particle_file;
 
 pub use mesh_file::{MESH_FORMATS, MeshFormat};
 pub use sequence::Sequence;
+
+/// Cubes along a side of all particles.
+const MOST_CUBES: f64 = 1e6;
 
 /// How a surface is made. Lengths are in particle radii, as splashsurf counts them.
 #[derive(Debug, Clone)]
@@ -61,6 +66,16 @@ struct SurfaceMesh {
 /// Makes a mesh of each frame that has particle files. Ends early, with what is done, after Ctrl-C.
 pub fn make_surfaces(recorded: &Sequence, out: &Path, settings: &SurfaceSettings) -> Result<Made> {
     let target = |frame: u32| out.join(format!("surface_{frame:06}.{}", settings.format.name));
+    let reach = 2.0 * settings.smoothing_length;
+    if settings.cube_size > reach {
+        return Err(Error::usage(
+            format!(
+                "cubes of {} radii are larger than what the kernel reaches, {reach} radii",
+                settings.cube_size
+            ),
+            "make --cube-size smaller, or --smoothing-length larger",
+        ));
+    }
     let there = recorded
         .frames
         .iter()
@@ -70,6 +85,14 @@ pub fn make_surfaces(recorded: &Sequence, out: &Path, settings: &SurfaceSettings
         return Err(Error::usage(
             format!("{} has {there} of these surfaces already", out.display()),
             "replace them with --force, or choose another folder with --out",
+        ));
+    }
+    let targets = recorded.frames.iter().map(|(frame, _)| target(*frame));
+    let mut there = targets.filter(|path| path.exists() || files::is_link(path));
+    if let Some(other) = there.find(|path| !is_surface(path)) {
+        return Err(Error::usage(
+            format!("{} is no surface that Sliceflow has written", other.display()),
+            "move it to another place, or choose another folder with --out",
         ));
     }
     std::fs::create_dir_all(out).map_err(|reason| disk::failed(out, "create", reason))?;
@@ -142,6 +165,16 @@ fn surface(file: &Path, recorded: f64, settings: &SurfaceSettings) -> Result<Opt
         .map(|p| Vector3::from((*p - origin).as_vec3().to_array()))
         .collect();
     let radius = settings.radius.unwrap_or(recorded) as f32;
+    let extent = local.iter().flatten().copied().fold(0.0, f32::max);
+    let cubes = f64::from(extent) / (settings.cube_size * f64::from(radius));
+    if cubes > MOST_CUBES || cubes.is_nan() {
+        return Err(Error::file(
+            file,
+            "make a surface of",
+            format!("{cubes:.1e} cubes would stand along one side"),
+            format!("make cubes larger with --cube-size or --radius: at most {MOST_CUBES:e} along a side"),
+        ));
+    }
     let mut parameters = Parameters::new_relative(
         radius,
         2.0 * settings.smoothing_length as f32,

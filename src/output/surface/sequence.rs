@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use crate::error::{Error, Result};
+use crate::files;
 use crate::output::particles::found::{POSITIONS, find};
 
 /// A run's particle files.
@@ -24,7 +25,7 @@ impl Sequence {
     pub fn open(run: &Path) -> Result<Self> {
         let path = run.join("run.json");
         let help = "give the folder of a run, which has a run.json";
-        let text = std::fs::read(&path).map_err(|reason| Error::file(&path, "read", reason, help))?;
+        let text = files::read(&path).map_err(|reason| Error::file(&path, "read", reason, help))?;
         let manifest: Value =
             serde_json::from_slice(&text).map_err(|reason| Error::file(&path, "read", reason, help))?;
         let scene = &manifest["scene"];

@@ -5,6 +5,7 @@ mod ffmpeg;
 mod gif;
 mod small;
 
+use std::fs::{File, OpenOptions, TryLockError};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -15,6 +16,7 @@ use super::png::compose;
 use super::workers::Workers;
 use super::{Sink, disk};
 use crate::error::{Error, Result};
+use crate::files;
 use crate::render::Overlay;
 use crate::scene::Scene;
 use crate::simulation::frame::Frame;
@@ -150,6 +152,11 @@ impl VideoOutput {
         (self.kind.check)()
     }
 
+    /// The name until the video is whole. It keeps the ending, which ffmpeg goes by.
+    fn partial(&self) -> PathBuf {
+        self.path.with_extension(format!("part.{}", self.kind.extension))
+    }
+
     /// What to know about it.
     pub fn note(&self, scene: &Scene) -> Option<String> {
         let mut parts = Vec::new();
@@ -201,6 +208,8 @@ pub struct Video {
     /// One thread, so that pictures stay in order.
     workers: Workers,
     encoder: Arc<Mutex<Option<Box<dyn Encoder>>>>,
+    /// Keeps other runs away from the half-written file; `None` once that is gone.
+    claim: Option<File>,
     /// What ended the video before the run.
     failure: Option<Error>,
     told: bool,
@@ -208,6 +217,10 @@ pub struct Video {
 
 impl Video {
     /// `pictures` is the folder of the run's PNGs, where it has them.
+    ///
+    /// # Errors
+    ///
+    /// Where another run is making the same video.
     pub fn new(output: VideoOutput, scene: &Scene, pictures: Option<&Path>) -> Result<Self> {
         if let Some(folder) = output
             .path
@@ -216,8 +229,11 @@ impl Video {
         {
             std::fs::create_dir_all(folder).map_err(|reason| disk::failed(folder, "create", reason))?;
         }
+        let overlay = Arc::new(Overlay::new(scene, scene.render.view)?);
+        let claim = Some(claim(&output)?);
         Ok(Self {
-            overlay: Arc::new(Overlay::new(scene, scene.render.view)?),
+            overlay,
+            claim,
             rate: rate(scene.time.fps),
             frames: scene.time.frames,
             taken: 0,
@@ -230,11 +246,15 @@ impl Video {
         })
     }
 
-    /// The name until the video is whole. It keeps the ending, which ffmpeg goes by.
     fn partial(&self) -> PathBuf {
-        self.output
-            .path
-            .with_extension(format!("part.{}", self.output.kind.extension))
+        self.output.partial()
+    }
+
+    /// Half a video only takes room; what went wrong is told elsewhere.
+    fn discard(&mut self) {
+        if self.claim.take().is_some() {
+            let _ = files::remove(&self.partial());
+        }
     }
 
     /// Says that the run's frames are there all the same, and how to make a video of them.
@@ -252,8 +272,7 @@ impl Video {
     }
 
     fn fail(&mut self, error: Error) -> Result<()> {
-        // Half a video only takes room; what went wrong is in the error.
-        let _ = std::fs::remove_file(self.partial());
+        self.discard();
         let error = self.with_way_out(error);
         if self.pictures.is_none() {
             return Err(error);
@@ -304,22 +323,62 @@ impl Sink for Video {
         if let Some(failure) = self.failure.take() {
             return Err(failure);
         }
+        let is_made = encoder.is_some();
         let finished = written.and_then(|()| encoder.map_or(Ok(()), Encoder::finish));
         match finished {
-            Ok(()) if self.partial().exists() => std::fs::rename(self.partial(), &self.output.path)
-                .map_err(|reason| disk::failed(&self.output.path, "write", reason)),
-            Ok(()) => Ok(()),
+            Ok(()) if is_made => {
+                std::fs::rename(self.partial(), &self.output.path)
+                    .map_err(|reason| disk::failed(&self.output.path, "write", reason))?;
+                self.claim = None;
+                Ok(())
+            }
+            Ok(()) => {
+                self.discard();
+                Ok(())
+            }
             Err(error) => {
-                let _ = std::fs::remove_file(self.partial());
+                self.discard();
                 Err(self.with_way_out(error))
             }
         }
     }
 }
 
-/// A file to encode into.
-fn create(path: &Path) -> Result<std::io::BufWriter<std::fs::File>> {
-    let file = std::fs::File::create(path).map_err(|reason| disk::failed(path, "create", reason))?;
+impl Drop for Video {
+    fn drop(&mut self) {
+        self.discard();
+    }
+}
+
+/// Creates the half-written file and locks it, where the system can.
+fn claim(output: &VideoOutput) -> Result<File> {
+    let path = output.partial();
+    let busy = || {
+        Error::usage(
+            format!("another run is making {}", output.path.display()),
+            "wait for it or stop it, or give --video another name",
+        )
+    };
+    let is_locked = |file: &File| matches!(file.try_lock(), Err(TryLockError::WouldBlock));
+    // One that a killed run has left is locked by nobody.
+    if files::open(&path).is_ok_and(|file| is_locked(&file)) {
+        return Err(busy());
+    }
+    let file = files::create(&path).map_err(|reason| disk::failed(&path, "create", reason))?;
+    match is_locked(&file) {
+        true => Err(busy()),
+        false => Ok(file),
+    }
+}
+
+/// The half-written file, which is there already in a run, to encode into.
+fn create(path: &Path) -> Result<std::io::BufWriter<File>> {
+    let file = OpenOptions::new()
+        .write(true)
+        .create(true)
+        .truncate(true)
+        .open(path);
+    let file = file.map_err(|reason| disk::failed(path, "create", reason))?;
     Ok(std::io::BufWriter::new(file))
 }
 

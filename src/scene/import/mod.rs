@@ -14,8 +14,10 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
+use super::allowance::Allowance;
 use super::{Scene, load};
 use crate::error::{Error, Result};
+use crate::files;
 
 pub use keys::Ignored;
 
@@ -33,8 +35,13 @@ pub struct Imported {
 
 /// Reads a peer's scene file. Paths in the result start from the folder `into`, or are absolute.
 pub fn import(path: &Path, into: Option<&Path>) -> Result<Imported> {
+    import_within(path, into, &Allowance::default())
+}
+
+/// The same, where the result may not be larger than is allowed.
+pub fn import_within(path: &Path, into: Option<&Path>, allowance: &Allowance) -> Result<Imported> {
     let help = "give a scene file of SPlisHSPlasH: JSON with Configuration, RigidBodies, FluidBlocks, …";
-    let text = std::fs::read_to_string(path).map_err(|reason| Error::file(path, "read", reason, help))?;
+    let text = files::read_text(path).map_err(|reason| Error::file(path, "read", reason, help))?;
     let value: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
         .map_err(|reason| Error::file(path, "read", reason, help))?;
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -66,7 +73,13 @@ pub fn import(path: &Path, into: Option<&Path>) -> Result<Imported> {
     .into();
     // Loaded from where it will stand.
     let base = into.map_or_else(PathBuf::new, Path::to_owned);
-    let scene = load::parse(&json.to_string(), &format!("{stem}, imported"), &base, &[])?;
+    let scene = load::parse_within(
+        &json.to_string(),
+        &format!("{stem}, imported"),
+        &base,
+        &[],
+        allowance,
+    )?;
     notes.extend(scene.notes.iter().cloned());
     Ok(Imported {
         json,

@@ -1,12 +1,12 @@
 //! Mesh files: OBJ, PLY and STL.
 
-use std::fs;
-use std::io::Cursor;
+use std::io::{BufReader, Cursor};
 use std::path::Path;
 
 use glam::DVec3;
 
 use super::Mesh;
+use crate::files;
 use crate::scene::ply;
 
 pub fn load(path: &Path) -> Result<Mesh, String> {
@@ -64,13 +64,12 @@ fn from_obj(path: &Path) -> Result<Polygons, String> {
         ignore_lines: true,
         ..Default::default()
     };
-    // Materials are not needed; a missing MTL file is no error.
-    let (models, _) = tobj::load_obj(path, &options).map_err(|error| {
-        format!(
-            "{} is not a readable OBJ file: {error}; export it again",
-            path.display()
-        )
-    })?;
+    let name = path.display();
+    let file = files::open(path).map_err(|error| format!("{name}: {error}"))?;
+    // Materials are not needed, so no file that holds them is opened.
+    let materials = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
+    let (models, _) = tobj::load_obj_buf(&mut BufReader::new(file), &options, materials)
+        .map_err(|error| format!("{name} is not a readable OBJ file: {error}; export it again"))?;
     let mut vertices = Vec::new();
     let mut polygons = Vec::new();
     for tobj::Model { mesh, .. } in models {
@@ -105,16 +104,23 @@ fn from_ply(path: &Path) -> Result<Polygons, String> {
 
 fn from_stl(path: &Path) -> Result<Polygons, String> {
     let name = path.display();
-    let mut bytes = fs::read(path).map_err(|error| format!("{name}: {error}"))?;
+    let mut bytes = files::read(path).map_err(|error| format!("{name}: {error}"))?;
     // Binary files may begin with "solid", and ASCII files may leave the name after it out; stl_io tells the two apart
     // by "solid " alone. Their size is certain: 80 bytes of header, a count, 50 bytes a triangle.
     let count = bytes
         .get(80..84)
         .map(|count| u32::from_le_bytes([count[0], count[1], count[2], count[3]]));
-    if count.is_some_and(|count| bytes.len() as u64 == 84 + 50 * u64::from(count)) {
+    let announced = count.map(|count| 84 + 50 * u64::from(count));
+    if announced.is_some_and(|announced| bytes.len() as u64 == announced) {
         bytes[..80].fill(0);
     } else if bytes.starts_with(b"solid") {
         bytes.insert(5, b' ');
+    } else if announced.is_some_and(|announced| announced > bytes.len() as u64) {
+        return Err(format!(
+            "{name} is cut off: it announces {} bytes and has {}; export it again",
+            announced.unwrap_or_default(),
+            bytes.len()
+        ));
     }
     let mesh = stl_io::read_stl(&mut Cursor::new(bytes))
         .map_err(|error| format!("{name} is not a readable STL file: {error}; export it again"))?;

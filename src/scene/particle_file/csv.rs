@@ -1,14 +1,14 @@
 //! Comma-separated values. A header names the columns, unknown ones are passed over; without a header: x, y or x, y, z.
 //! Empty lines and lines that start with `#` are skipped.
 
-use std::fs;
 use std::path::Path;
 
 use super::{COLUMNS, NamedColumn, Table, place};
+use crate::files;
 
 pub fn read(path: &Path) -> Result<Table, String> {
     let name = path.display();
-    let text = fs::read_to_string(path).map_err(|error| format!("{name}: {error}"))?;
+    let text = files::read_text(path).map_err(|error| format!("{name}: {error}"))?;
     let mut lines = text
         .trim_start_matches('\u{feff}')
         .lines()
@@ -60,9 +60,17 @@ pub fn read(path: &Path) -> Result<Table, String> {
         let known = cells.iter().zip(&places).filter(|(_, place)| place.is_some());
         for ((cell, _), (column, values)) in known.zip(&mut columns) {
             values.push(cell.parse().map_err(|_| {
-                format!(
-                    "{name}, line {number}: {column} is {cell:?}, which is not a number; write it like 0.25"
-                )
+                // The file may be somebody's secret, which one short word of it is not.
+                let is_short = cell.len() <= 12
+                    && cell
+                        .chars()
+                        .all(|c| c.is_ascii_alphanumeric() || "+-. ".contains(c));
+                let quoted = if is_short {
+                    format!("{cell:?}, which is ")
+                } else {
+                    String::new()
+                };
+                format!("{name}, line {number}: {column} is {quoted}not a number; write it like 0.25")
             })?);
         }
         numbers.push(number);

@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use super::{COLUMNS, Table};
+use crate::files;
 use crate::scene::npy::Array;
 
 pub fn read(path: &Path) -> Result<Table, String> {
     let name = path.display();
-    let file = std::fs::read(path).map_err(|error| format!("{name}: {error}"))?;
+    let file = files::read(path).map_err(|error| format!("{name}: {error}"))?;
     let array = Array::parse(&file).map_err(|error| format!("{name}: {error}; save it with numpy.save"))?;
     let [rows, columns @ 2..=3] = array.shape[..] else {
         return Err(format!(
@@ -22,7 +23,7 @@ pub fn read(path: &Path) -> Result<Table, String> {
     let Some(values) = array.numbers().filter(|_| array.is_float()) else {
         return Err(format!(
             "{name}: the array holds {}; save float32 or float64",
-            array.kind
+            array.told_kind()
         ));
     };
 
