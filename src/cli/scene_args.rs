@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use super::grid;
+use super::look_args::LookArgs;
 use crate::error::Result;
 use crate::scene::{Scene, library, load, model, set};
 
@@ -23,6 +24,8 @@ pub struct SceneArgs {
     /// Size of pictures, pixels
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<[u32; 2]>,
+    #[command(flatten)]
+    looks: LookArgs,
 }
 
 /// Choices that not every command leaves to the user.
@@ -47,7 +50,7 @@ impl SceneArgs {
 
     /// Whether a key of the scene is changed, which a particle file has not.
     pub fn changes_scene(&self) -> bool {
-        !self.set.is_empty() || self.fps.is_some() || self.seed.is_some() || self.size.is_some()
+        !self.set.is_empty() || self.fps.is_some() || self.seed.is_some() || self.size.is_some() || self.looks.is_given()
     }
 
     fn overrides(&self, choices: &Choices) -> Result<Vec<String>> {
@@ -61,6 +64,7 @@ impl SceneArgs {
             "render.size",
             self.size.map(|[width, height]| format!("[{width},{height}]")),
         );
+        self.looks.put(&mut put);
         put("render.view", choices.view.map(str::to_owned));
         if let Some(name) = choices.grid {
             overrides.extend(grid::overrides(name)?);
@@ -118,6 +122,7 @@ mod tests {
             fps: None,
             seed: None,
             size: None,
+            looks: LookArgs::default(),
         }
     }
 

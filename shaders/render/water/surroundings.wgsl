@@ -1,0 +1,25 @@
+// What a ray sees that water reflects: a sky that is bright around the key light, and the floor.
+
+#import render/picture
+
+fn sky(direction: vec3f) -> vec3f {
+    let up = smoothstep(-0.1, 0.9, direction.y);
+    let base = mix(picture.backdrop_low.rgb, 0.8 * picture.backdrop_high.rgb, up);
+    let toward = dot(direction, picture.light.xyz);
+    return base + 0.9 * exp(14.0 * (toward - 1.0));
+}
+
+fn surroundings(start: vec3f, direction: vec3f) -> vec3f {
+    var color = sky(vec3f(direction.x, abs(direction.y), direction.z));
+#if has_floor
+    let t = (picture.floor_height - start.y) / direction.y;
+    if direction.y < -1e-6 && t > 0.0 {
+        let point = start + t * direction;
+        let center = 0.5 * (picture.domain_min.xyz + picture.domain_max.xyz);
+        let away = length(point.xz - center.xz);
+        let fade = 1.0 - smoothstep(picture.floor_fade_begin, picture.floor_fade_end, away);
+        color = mix(color, picture.floor_color.rgb, fade);
+    }
+#end
+    return color;
+}
