@@ -56,7 +56,10 @@ const INSIDE: u32 = 30;
 #[test]
 fn a_tank_at_rest_has_a_flat_surface_that_faces_up_and_is_not_floor() {
     let gpu = stage::gpu();
-    let scene = tank(&["render.camera.eye=[0.3,1.2,1.6]", "render.camera.target=[0.3,0.2,0.2]"]);
+    let scene = tank(&[
+        "render.camera.eye=[0.3,1.2,1.6]",
+        "render.camera.target=[0.3,0.2,0.2]",
+    ]);
     let (image, buffers) = picture(&gpu, &scene, INSIDE);
     let [width, height] = scene.render.size.map(|side| side as usize);
     let surface: Vec<f32> = readback::read(
@@ -65,7 +68,12 @@ fn a_tank_at_rest_has_a_flat_surface_that_faces_up_and_is_not_floor() {
         width * height,
     )
     .unwrap();
-    let sight = Sight::new(&scene, scene.render.size, Layout::new(&scene, View::Scene).insets, 0.0);
+    let sight = Sight::new(
+        &scene,
+        scene.render.size,
+        Layout::new(&scene, View::Scene).insets,
+        0.0,
+    );
     let point = |x: usize, y: usize| {
         let share = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) / DVec2::new(width as f64, height as f64);
         let ndc = DVec2::new(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y) - sight.shift;
@@ -132,7 +140,13 @@ fn particles_without_neighbors_are_white_and_small() {
         (pixels.clone().count(), pixels.filter(|p| p.0[0] > 120).count())
     };
     let one = r#"bodies=[{"shape":{"kind":"box","min":[0.25,0.2,0.15],"max":[0.3,0.25,0.2]}}]"#;
-    let scene = tank(&[&looks[..], &[one, "render.camera.axis=z", "render.camera.height=0.2"]].concat());
+    let scene = tank(
+        &[
+            &looks[..],
+            &[one, "render.camera.axis=z", "render.camera.height=0.2"],
+        ]
+        .concat(),
+    );
     assert_eq!(scene.particles.len(), 1);
     let (lit, white) = seen(&scene, 0);
     assert!(white > 20 && white * 4 > lit * 3, "{white} of {lit} are white");
@@ -159,7 +173,12 @@ fn only_water_needs_waters_textures_and_passes() {
     };
     let plan = |look: &str| {
         let look = format!("render.look={look}");
-        Plan::new(&common::fluid(3, &[&look]), &sliceflow::gpu::Limits::PROMISED, &wanted).unwrap()
+        Plan::new(
+            &common::fluid(3, &[&look]),
+            &sliceflow::gpu::Limits::PROMISED,
+            &wanted,
+        )
+        .unwrap()
     };
     let names = |plan: &Plan| -> Vec<String> {
         let buffers = plan.buffers.iter().map(|buffer| buffer.name.clone());
@@ -201,7 +220,10 @@ fn run(place: &Place, out: &str, more: &[&str]) -> Vec<u8> {
 fn water_has_the_same_bytes_again_and_from_files() {
     let place = Place::new();
     let first = run(&place, "first", &["--look", "water", "--particles", "npy"]);
-    assert!(first == run(&place, "second", &["--look", "water"]), "two runs differ");
+    assert!(
+        first == run(&place, "second", &["--look", "water"]),
+        "two runs differ"
+    );
     place.told(&mut place.sliceflow(&["render", "first", "-o", "again"]), 0);
     let again = fs::read(place.path("again/frame_000002.png")).unwrap();
     assert!(first == again, "drawn from files it differs");
@@ -213,7 +235,14 @@ fn water_has_the_same_bytes_again_and_from_files() {
     );
     assert!(first == fs::read(place.path("water/frame_000002.png")).unwrap());
     assert!(splats == run(&place, "same", &["--look", "splats"]));
-    assert!(splats == run(&place, "spheres", &["--look", "spheres", "--set", "render.splat=disc"]));
+    assert!(
+        splats
+            == run(
+                &place,
+                "spheres",
+                &["--look", "spheres", "--set", "render.splat=disc"]
+            )
+    );
     assert!(splats != run(&place, "discs", &["--set", "render.splat=disc"]));
 }
 
@@ -253,7 +282,10 @@ fn words_that_do_not_exist_and_scenes_without_water_are_refused() {
     let wrong = told(&["run", "green_cube", "--look", "watter"]);
     assert!(wrong.contains("splats, spheres, water"), "{wrong}");
     let wrong = told(&["plan", "harada_dam", "--set", "render.look=sphere"]);
-    assert!(wrong.contains("render.look") && wrong.contains("spheres"), "{wrong}");
+    assert!(
+        wrong.contains("render.look") && wrong.contains("spheres"),
+        "{wrong}"
+    );
     let flat = told(&["plan", "dam_break_2d", "--look", "water"]);
     assert!(flat.contains("render.look") && flat.contains("2D"), "{flat}");
     let grains = told(&["plan", "green_cube", "--look", "water"]);
@@ -279,7 +311,10 @@ fn text_grows_with_the_picture() {
         rows.count() as f64 / f64::from(height)
     };
     let [small, large] = ["[1280,720]", "[1920,1080]"].map(caption);
-    assert!((large / small - 1.0).abs() < 0.1, "{small} and {large} of the height");
+    assert!(
+        (large / small - 1.0).abs() < 0.1,
+        "{small} and {large} of the height"
+    );
     assert!(large > 0.015);
 }
 

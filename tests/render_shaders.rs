@@ -20,7 +20,13 @@ fn file_of(column: &Column, modules: &BTreeMap<String, String>) -> String {
 
 fn variants() -> Vec<Variant> {
     let mut all = Vec::new();
-    let on = [[true, false, false, false], [false; 4], [false, true, false, false], [false, true, true, false], [false, true, true, true]];
+    let on = [
+        [true, false, false, false],
+        [false; 4],
+        [false, true, false, false],
+        [false, true, true, false],
+        [false, true, true, true],
+    ];
     for [two, solid, water, transparent] in on {
         for column in COLUMNS.iter() {
             let mut variant = Variant::default();

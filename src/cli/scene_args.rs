@@ -50,7 +50,11 @@ impl SceneArgs {
 
     /// Whether a key of the scene is changed, which a particle file has not.
     pub fn changes_scene(&self) -> bool {
-        !self.set.is_empty() || self.fps.is_some() || self.seed.is_some() || self.size.is_some() || self.looks.is_given()
+        !self.set.is_empty()
+            || self.fps.is_some()
+            || self.seed.is_some()
+            || self.size.is_some()
+            || self.looks.is_given()
     }
 
     fn overrides(&self, choices: &Choices) -> Result<Vec<String>> {

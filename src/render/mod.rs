@@ -22,10 +22,10 @@ mod water_stages;
 
 use glam::Vec3;
 
+pub use backdrop::POOL_COLORS;
 pub use camera::Sight;
 pub use colliders::{Vertices, triangles as collider_vertices};
 pub use layout::{Layout, PoolPlace, Rectangle};
-pub use backdrop::POOL_COLORS;
 pub use needs::{DrawNeed, Needs, TextureNeed, needs};
 pub use overlay::{Caption, Overlay};
 pub use picture::{Picture, PoolPanel};

@@ -14,8 +14,8 @@ use crate::scene::model::View;
 
 /// The color target: sRGB bytes, so that blending and averaging happen in linear light.
 pub const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
-/// Two half floats, which every adapter adds up.
-pub const THICKNESS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
+/// Half floats, which every adapter adds up.
+pub const THICKNESS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
 
 /// Pixels along a side of the blocks that hide spheres; `OCCLUSION_BLOCK` in shaders.
 pub const BLOCK: u32 = 8;
@@ -56,13 +56,12 @@ impl Needs {
         self.buffers.push(BufferPlan::storage(name, count, element, why));
     }
 
-    /// Texels of all formats that pictures use have four bytes.
     fn texture(&mut self, name: &str, size: [u32; 2], format: wgpu::TextureFormat, why: &str) {
         self.textures.push(TextureNeed {
             name: name.to_owned(),
             size,
             format,
-            bytes: u64::from(size[0]) * u64::from(size[1]) * 4,
+            bytes: u64::from(size[0]) * u64::from(size[1]) * if format == THICKNESS_FORMAT { 2 } else { 4 },
             why: why.to_owned(),
         });
     }
@@ -206,12 +205,31 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         "colliders",
     );
     let (vertex, fragment) = style.splat_entries();
-    needs.draw(!style.water, vertex, Some(fragment), style.splat_shader(), "particles");
+    needs.draw(
+        style.water,
+        "place_water_drop",
+        Some("shade_water_drop"),
+        "render/water/drops",
+        "particles with few neighbors",
+    );
+    needs.draw(
+        !style.water,
+        vertex,
+        Some(fragment),
+        style.splat_shader(),
+        "particles",
+    );
     let (edge, why) = match style.water {
         true => ("draw_glass", "the domain, a glass tank"),
         false => ("draw_red", "the domain in red lines"),
     };
-    needs.draw(style.domain, "place_domain_edge", Some(edge), "render/domain_box", why);
+    needs.draw(
+        style.domain,
+        "place_domain_edge",
+        Some(edge),
+        "render/domain_box",
+        why,
+    );
     needs.draw(
         style.slices,
         "place_slice_side",

@@ -2,8 +2,8 @@
 
 use image::RgbaImage;
 
-use super::layout::{Layout, Rectangle};
 use super::backdrop::{Rgb, backdrop};
+use super::layout::{Layout, Rectangle};
 use super::pool_legend::PoolLegend;
 use super::text::{Writer, blend, fill};
 use super::ticks::{grouped, labels, ticks};

@@ -1,9 +1,9 @@
 //! The uniforms of the picture passes, field for field as `shaders/render/picture.wgsl` and `pool.wgsl` have them.
 
+use super::backdrop::{Backdrop, POOL_COLORS, Rgb, backdrop, linear, packed};
 use super::camera::Sight;
 use super::layout::{Layout, Rectangle};
 use super::light::Light;
-use super::backdrop::{Backdrop, POOL_COLORS, Rgb, backdrop, linear, packed};
 use super::style::Style;
 use crate::scene::Scene;
 use crate::shared_struct;

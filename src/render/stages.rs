@@ -28,7 +28,10 @@ pub struct Stages {
 /// How particles get into the picture.
 enum Particles {
     /// As splats among the draws: their colors before these, the samples' average after them.
-    Splats { color: Pass, resolve: Pass },
+    Splats {
+        color: Pass,
+        resolve: Pass,
+    },
     Water(WaterStages),
 }
 
@@ -116,12 +119,7 @@ impl<'a> Maker<'a> {
     }
 
     /// A draw into a color target, or of depth alone without `blend`.
-    pub fn draw(
-        &self,
-        label: &str,
-        topology: wgpu::PrimitiveTopology,
-        blend: Option<Blend>,
-    ) -> Result<Draw> {
+    pub fn draw(&self, label: &str, topology: wgpu::PrimitiveTopology, blend: Option<Blend>) -> Result<Draw> {
         let fragment = self.need(label).fragment.as_deref();
         let shader = self.shader(label)?;
         let color = blend.map(|blend| match blend {
@@ -181,10 +179,11 @@ impl Stages {
             let solid = maker.draw("place_collider", LIST, opaque)?;
             draws.push((solid, collider_vertices, Some(1)));
         }
-        if !parts.water {
-            let (splat, _) = parts.splat_entries();
-            draws.push((maker.draw(splat, STRIP, opaque)?, 4, None));
-        }
+        let splat = match parts.water {
+            true => "place_water_drop",
+            false => parts.splat_entries().0,
+        };
+        draws.push((maker.draw(splat, STRIP, opaque)?, 4, None));
         if parts.domain {
             let edges = if parts.three_dimensional { 12 } else { 4 };
             let lines = maker.draw("place_domain_edge", STRIP, opaque)?;
@@ -310,11 +309,7 @@ pub fn draw_all(
     }
 }
 
-fn begin<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    label: &str,
-    target: Target,
-) -> wgpu::RenderPass<'a> {
+fn begin<'a>(encoder: &'a mut wgpu::CommandEncoder, label: &str, target: Target) -> wgpu::RenderPass<'a> {
     let (color, depth) = match target {
         Target::Color(color) => (Some(color), None),
         Target::Depth(depth) => (None, Some(depth)),

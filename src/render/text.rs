@@ -78,7 +78,11 @@ pub fn blend(image: &mut RgbaImage, (x, y): (i64, i64), color: Rgb, cover: f32) 
         let cover = cover.clamp(0.0, 1.0);
         let alpha = f32::from(pixel.0[3]) / 255.0;
         let joint = cover + alpha * (1.0 - cover);
-        let share = if alpha == 1.0 { cover } else { cover / joint.max(1e-6) };
+        let share = if alpha == 1.0 {
+            cover
+        } else {
+            cover / joint.max(1e-6)
+        };
         for (old, new) in pixel.0.iter_mut().zip(color) {
             let mixed = f32::from(*old) + (f32::from(new) - f32::from(*old)) * share;
             *old = mixed.round() as u8;

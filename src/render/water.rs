@@ -14,6 +14,7 @@ shared_struct! {
     pub struct Water {
         pub absorption: [f32; 4],
         pub scatter: [f32; 4],
+        pub drop: [f32; 4],
         pub radius: f32,
         pub drop_radius: f32,
         pub reach: f32,
@@ -30,19 +31,20 @@ shared_struct! {
 }
 
 /// Radii are multiples of a particle's as drawn, half its distance from the next: spheres so large leave no holes.
-const SURFACE_RADIUS: f64 = 1.8;
-const DROP_RADIUS: f64 = 0.7;
-const THICKNESS_RADIUS: f64 = 2.6;
+const SURFACE_RADIUS: f64 = 2.0;
+const DROP_RADIUS: f64 = 0.5;
+const THICKNESS_RADIUS: f64 = 2.8;
 /// The filter's standard deviation, in distances of particles.
-const SMOOTHING: f64 = 1.1;
+const SMOOTHING: f64 = 1.0;
 /// Surfaces farther apart are not smoothed together, in distances of particles.
 const RANGE: f64 = 3.0;
-const RETREAT: f64 = 0.5;
-/// Neighbors of spray and of water, as shares of those inside the fluid.
-const FEW: f64 = 0.1;
-const MANY: f64 = 0.4;
+/// How far behind a surface the filter sees what lies beyond that: the depth of a sphere.
+const RETREAT: f64 = 1.0;
+/// Neighbors that a drop has less of, and that a particle inside the water has more of, as shares of those in the middle.
+const FEW: f64 = 0.25;
+const MANY: f64 = 0.45;
 /// The length after which light has the water's color where the scene does not say, as a share of the domain's diagonal.
-const ABSORPTION_SHARE: f64 = 0.15;
+const ABSORPTION_SHARE: f64 = 0.1;
 /// Light that comes back from deep water, as a share of its color.
 const SCATTER: f32 = 0.35;
 
@@ -51,14 +53,16 @@ impl Water {
         let looks = &scene.render.water;
         let diagonal = f64::from((scene.domain.max - scene.domain.min).length());
         let length = looks.absorption_length.unwrap_or(ABSORPTION_SHARE * diagonal);
-        let color = color_maps::parse_hex(&looks.color).unwrap_or_default().map(linear);
-        let [r, g, b] = color;
-        let absorption = color.map(|channel| -channel.max(1e-4).ln() / length as f32);
+        let color = color_maps::parse_hex(&looks.color)
+            .unwrap_or_default()
+            .map(linear);
+        let four = |[r, g, b]: [f32; 3]| [r, g, b, 0.0];
         let spacing = 2.0 * scene.radius();
         let full = scene.usual_neighbors(1.0);
         Self {
-            absorption: [absorption[0], absorption[1], absorption[2], 0.0],
-            scatter: [SCATTER * r, SCATTER * g, SCATTER * b, 0.0],
+            absorption: four(color.map(|channel| -channel.max(1e-4).ln() / length as f32)),
+            scatter: four(color.map(|channel| SCATTER * channel)),
+            drop: four(color.map(|channel| 0.5 + 0.5 * channel)),
             radius: (SURFACE_RADIUS * style.radius) as f32,
             drop_radius: (DROP_RADIUS * style.radius) as f32,
             reach: (THICKNESS_RADIUS * style.radius) as f32,
@@ -99,10 +103,15 @@ pub fn add_resources(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32
     let why = "the water's surface, as distances from the eye";
     needs.storage("water_surface", count(samples), 4, why);
     needs.storage("next_water_surface", count(samples), 4, "the same, smoothed");
-    needs.storage("behind", count(size), 8, "what lies behind the water, half floats");
+    needs.storage(
+        "behind",
+        count(size),
+        8,
+        "what lies behind the water, half floats",
+    );
     needs.depth_texture("water_depth", samples, "the water's surface as spheres");
     let halves = size.map(|side| side.div_ceil(2));
-    needs.thickness_texture("water_thickness", halves, "thickness of the water, and of spray");
+    needs.thickness_texture("water_thickness", halves, "thickness of the water");
     needs.thickness_texture("water_shadow", [SHADOW_SIDE; 2], "the same as the light sees it");
 }
 
@@ -110,15 +119,41 @@ pub fn add_resources(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32
 pub fn add_draws(needs: &mut Needs) {
     let splats = "render/water/splats";
     for (label, fragment, shader, why) in [
-        ("place_water_shadow", Some("add_water_shadow"), splats, "water that sunlight passes"),
-        ("place_water_surface", Some("cut_water_surface"), splats, "the water's surface"),
-        ("place_water_thickness", Some("add_water_thickness"), splats, "the water's thickness"),
-        ("find_water_surface", None, "render/water/surface", "depth as distances"),
+        (
+            "place_water_shadow",
+            Some("add_water_shadow"),
+            splats,
+            "water that sunlight passes",
+        ),
+        (
+            "place_water_surface",
+            Some("cut_water_surface"),
+            splats,
+            "the water's surface",
+        ),
+        (
+            "place_water_thickness",
+            Some("add_water_thickness"),
+            splats,
+            "the water's thickness",
+        ),
+        (
+            "find_water_surface",
+            None,
+            "render/water/surface",
+            "depth as distances",
+        ),
     ] {
         needs.draw(true, label, fragment, shader, why);
     }
     for label in SMOOTHING_PASSES {
-        needs.draw(true, label, None, "render/water/smooth", "smooths the water's surface");
+        needs.draw(
+            true,
+            label,
+            None,
+            "render/water/smooth",
+            "smooths the water's surface",
+        );
     }
     let why = "what lies behind the water";
     needs.draw(true, "paint_behind", None, "render/water/behind", why);

@@ -18,9 +18,8 @@ pub struct WaterStages {
 
 impl WaterStages {
     pub fn new(maker: &Maker) -> Result<Self> {
-        let splats = |label: &str, blend| -> Result<[Placed; 1]> {
-            Ok([(maker.draw(label, STRIP, blend)?, 4, None)])
-        };
+        let splats =
+            |label: &str, blend| -> Result<[Placed; 1]> { Ok([(maker.draw(label, STRIP, blend)?, 4, None)]) };
         let added = Some(Blend::Add);
         let mut smooth = Vec::new();
         for (index, entry) in SMOOTHING_PASSES.iter().enumerate() {

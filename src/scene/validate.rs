@@ -350,7 +350,11 @@ fn neighbors(file: &SceneFile, frame: &Frame, report: &mut Report) -> Neighbors 
 fn water(file: &SceneFile, frame: &Frame, report: &mut Report) {
     let help = "choose `splats` or `spheres`";
     if frame.dimensions == Dimensions::Two {
-        report.problem("render.look", "`water` is drawn in 3D, and this scene is 2D", help);
+        report.problem(
+            "render.look",
+            "`water` is drawn in 3D, and this scene is 2D",
+            help,
+        );
     }
     if file.fluid.is_none() {
         report.problem("render.look", "grains are no `water`", help);

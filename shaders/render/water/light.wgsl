@@ -16,8 +16,8 @@ fn light_through_water(point: vec3f) -> vec3f {
     let share = fract(at);
     let low = mix(textureLoad(water_shadow, corner, 0), textureLoad(water_shadow, corner + vec2u(1, 0), 0), share.x);
     let high = mix(textureLoad(water_shadow, corner + vec2u(0, 1), 0), textureLoad(water_shadow, corner + vec2u(1, 1), 0), share.x);
-    let passed = mix(low, high, share.y).rg;
+    let thickness = mix(low, high, share.y).r;
     // Its surface sends light elsewhere too.
-    let entered = 1.0 - 0.25 * (1.0 - exp(-2.0 * passed.r));
-    return entered * exp(-water.absorption.rgb * passed.r * water.spacing) * exp(-0.7 * water.spray * passed.g);
+    let entered = 1.0 - 0.25 * (1.0 - exp(-2.0 * thickness));
+    return entered * exp(-water.absorption.rgb * thickness * water.spacing);
 }

@@ -32,7 +32,7 @@ fn tangent(place: vec2i, own: f32, direction: vec2i) -> vec3f {
     let before = surface_at(place - direction);
     let behind = surface_at(place + direction);
     let change = abs(vec2f(before, behind) - own);
-    if max(change.x, change.y) < water.retreat {
+    if max(change.x, change.y) < 0.5 * water.retreat {
         return point_at(place + direction, behind) - point_at(place - direction, before);
     }
     if change.y <= change.x {

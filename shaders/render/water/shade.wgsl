@@ -1,5 +1,5 @@
 // The color of water at a sample: reflection by Fresnel's law (Schlick 1994), what lies behind it, refracted (Snell) and
-// absorbed (Beer and Lambert), light from within, the sun's glint, spray.
+// absorbed (Beer and Lambert), light from within, the sun's glint.
 
 #import render/picture
 #import render/water/water
@@ -13,8 +13,8 @@ var scene_depth: texture_depth_2d;
 var water_thickness: texture_2d<f32>;
 var<storage, read> behind: array<vec2u>;
 
-// Spacings of water, and of spray, along the ray through a pixel.
-fn thickness_at(pixel: vec2f) -> vec2f {
+// Metres of water along the ray through a pixel.
+fn thickness_at(pixel: vec2f) -> f32 {
     let last = vec2f(textureDimensions(water_thickness) - 1u);
     let at = clamp(0.5 * pixel - 0.5, vec2f(0.0), last);
     let low = vec2u(at);
@@ -22,7 +22,7 @@ fn thickness_at(pixel: vec2f) -> vec2f {
     let share = at - vec2f(low);
     let upper = mix(textureLoad(water_thickness, low, 0), textureLoad(water_thickness, vec2u(high.x, low.y), 0), share.x);
     let lower = mix(textureLoad(water_thickness, vec2u(low.x, high.y), 0), textureLoad(water_thickness, high, 0), share.x);
-    return mix(upper, lower, share.y).rg;
+    return mix(upper, lower, share.y).r * water.spacing;
 }
 
 fn behind_at(pixel: vec2u) -> vec4f {
@@ -66,8 +66,7 @@ fn water_color(place: vec2i, distance: f32) -> vec4f {
     let point = point_at(place, distance);
     let toward = to_eye(point).xyz;
     let normal = surface_normal(place, distance, toward);
-    let found = thickness_at(pixel);
-    let thickness = found.x * water.spacing;
+    let thickness = thickness_at(pixel);
 
     let facing = saturate(dot(normal, toward));
     let fresnel = F0 + (1.0 - F0) * pow(1.0 - facing, 5.0);
@@ -78,15 +77,11 @@ fn water_color(place: vec2i, distance: f32) -> vec4f {
     let beyond = behind_between(refracted_pixel(pixel, point, distance, bent, thickness));
     let passed = exp(-water.absorption.rgb * thickness);
     let day = 0.75 + 0.25 * dot(normal, picture.light.xyz);
-    let within = water.scatter.rgb * day * (1.0 - passed);
+    // Even a film of water is no less blue than one as thick as a particle.
+    let within = water.scatter.rgb * day * (1.0 - passed * exp(-water.absorption.rgb * water.spacing));
 
-    let glint = 2.5 * pow(saturate(dot(mirrored, picture.light.xyz)), 500.0);
-    var color = mix(within + beyond.rgb * passed, reflection, fresnel) + glint;
-    var alpha = 1.0 - (1.0 - fresnel) * dot(passed, vec3f(0.3333)) * (1.0 - beyond.a);
-
-    let white = water.spray * (1.0 - exp(-1.2 * found.y));
-    let foam = vec3f(0.62, 0.66, 0.70) + 0.3 * max(dot(normal, picture.light.xyz), 0.0);
-    color = mix(color, foam, white);
-    alpha = mix(alpha, 1.0, white);
+    let glint = 1.5 * pow(saturate(dot(mirrored, picture.light.xyz)), 300.0);
+    let color = mix(within + beyond.rgb * passed, reflection, fresnel) + glint;
+    let alpha = 1.0 - (1.0 - fresnel) * dot(passed, vec3f(0.3333)) * (1.0 - beyond.a);
     return vec4f(shoulder(color), alpha);
 }

@@ -3,10 +3,10 @@
 #import render/picture
 
 fn sky(direction: vec3f) -> vec3f {
-    let up = smoothstep(-0.1, 0.9, direction.y);
-    let base = mix(picture.backdrop_low.rgb, 0.8 * picture.backdrop_high.rgb, up);
+    let up = smoothstep(0.0, 0.75, direction.y);
+    let base = mix(1.05 * picture.backdrop_low.rgb, picture.backdrop_high.rgb * vec3f(0.50, 0.60, 0.75), up);
     let toward = dot(direction, picture.light.xyz);
-    return base + 0.9 * exp(14.0 * (toward - 1.0));
+    return base + 1.2 * exp(14.0 * (toward - 1.0));
 }
 
 fn surroundings(start: vec3f, direction: vec3f) -> vec3f {
