@@ -349,14 +349,15 @@ fn neighbors(file: &SceneFile, frame: &Frame, report: &mut Report) -> Neighbors 
 /// Which scenes can be drawn as water, and its color.
 fn water(file: &SceneFile, frame: &Frame, report: &mut Report) {
     let help = "choose `splats` or `spheres`";
-    if frame.dimensions == Dimensions::Two {
+    let is_drawn = file.render.look == Look::Water;
+    if is_drawn && frame.dimensions == Dimensions::Two {
         report.problem(
             "render.look",
             "`water` is drawn in 3D, and this scene is 2D",
             help,
         );
     }
-    if file.fluid.is_none() {
+    if is_drawn && file.fluid.is_none() {
         report.problem("render.look", "grains are no `water`", help);
     }
     let color = &file.render.water.color;
@@ -393,9 +394,7 @@ fn render(file: &SceneFile, frame: &Frame, report: &mut Report) -> Render {
             .notes
             .push("render.show.slices: this grid has no slices, so none are drawn".into());
     }
-    if render.look == Look::Water {
-        water(file, frame, report);
-    }
+    water(file, frame, report);
     render.show.caption &= render.show.overlay;
     if render.light.is_some_and(|light| light == [0.0; 3]) {
         report.problem(

@@ -80,7 +80,7 @@ fn water_color(place: vec2i, distance: f32) -> vec4f {
     // Even a film of water is no less blue than one as thick as a particle.
     let within = water.scatter.rgb * day * (1.0 - passed * exp(-water.absorption.rgb * water.spacing));
 
-    let glint = 1.5 * pow(saturate(dot(mirrored, picture.light.xyz)), 300.0);
+    let glint = 0.8 * pow(saturate(dot(mirrored, picture.light.xyz)), 120.0);
     let color = mix(within + beyond.rgb * passed, reflection, fresnel) + glint;
     let alpha = 1.0 - (1.0 - fresnel) * dot(passed, vec3f(0.3333)) * (1.0 - beyond.a);
     return vec4f(shoulder(color), alpha);
