@@ -43,7 +43,7 @@ fn backdrop(pixel: vec2f) -> vec4f {
         }
 #end
 #if transparent
-        color.a = fade * picture.floor_color.w * max(shade.r, max(shade.g, shade.b));
+        color.a = fade * picture.floor_color.w * dot(shade, vec3f(0.2126, 0.7152, 0.0722));
 #else
         color = mix(color, vec4f(picture.floor_color.rgb * (1.0 - picture.floor_color.w * shade), 1.0), fade);
 #end

@@ -1,8 +1,8 @@
 //! Pictures of the particles, straight from the simulation's buffers (the point-splat pipeline of Rojas 2013).
 //!
 //! A picture is made of few passes: shadows; what spheres surely hide; each particle's color; colliders, particles
-//! and lines into a supersampled texture; and the resolve into `frame_pixels`. Nothing comes back but pixels, which
-//! [`Overlay`] finishes on an encoder thread.
+//! and lines into a supersampled texture; and the resolve into `frame_pixels`. Water takes the particles' place with passes
+//! of its own (`water.rs`). Nothing comes back but pixels, which [`Overlay`] finishes on an encoder thread.
 
 mod backdrop;
 mod camera;

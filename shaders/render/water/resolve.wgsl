@@ -24,7 +24,8 @@ fn resolve_water(thread: Thread) {
         for (var x = 0u; x < n; x += 1u) {
             let place = pixel * n + vec2u(x, y);
             let distance = surface_at(vec2i(place));
-            if distance < view_depth(textureLoad(scene_depth, place, 0)) {
+            // What lies in a wall of the tank, as its edges do, is in front of the water.
+            if distance + 0.1 * water.spacing < view_depth(textureLoad(scene_depth, place, 0)) {
                 sum += water_color(vec2i(place), distance);
             } else {
                 let solid = textureLoad(scene_color, place, 0);

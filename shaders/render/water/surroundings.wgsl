@@ -4,7 +4,9 @@
 
 fn sky(direction: vec3f) -> vec3f {
     let up = smoothstep(0.0, 0.75, direction.y);
-    let base = mix(1.05 * picture.backdrop_low.rgb, picture.backdrop_high.rgb * vec3f(0.50, 0.60, 0.75), up);
+    // Darker than the backdrop, so that outlines stand out from it.
+    let horizon = picture.backdrop_low.rgb * vec3f(0.55, 0.64, 0.72);
+    let base = mix(horizon, picture.backdrop_high.rgb * vec3f(0.50, 0.60, 0.75), up);
     let toward = dot(direction, picture.light.xyz);
     return base + 1.2 * exp(14.0 * (toward - 1.0));
 }

@@ -22,7 +22,7 @@ pub struct Render {
     /// Drawn radius over the particle's radius.
     #[schemars(range(min = 0.01, max = 10.0))]
     pub splat_scale: f64,
-    /// Colors of the particles, and their legend.
+    /// Colors of the particles, and their legend; water has a color of its own.
     pub color: Color,
     /// Where the eye is.
     pub camera: Camera,
