@@ -6,6 +6,7 @@ use super::light::SHADOW_TEXELS;
 use super::needs::Needs;
 use super::style::Style;
 use crate::gpu::BufferPlan;
+use crate::scene::model::Wall;
 use crate::scene::{Scene, color_maps};
 use crate::shared_struct;
 
@@ -15,6 +16,8 @@ shared_struct! {
         pub absorption: [f32; 4],
         pub scatter: [f32; 4],
         pub drop: [f32; 4],
+        pub low: [f32; 4],
+        pub high: [f32; 4],
         pub radius: f32,
         pub drop_radius: f32,
         pub reach: f32,
@@ -32,7 +35,7 @@ shared_struct! {
 
 /// Radii are multiples of a particle's as drawn, half its distance from the next: spheres so large leave no holes.
 const SURFACE_RADIUS: f64 = 2.0;
-const DROP_RADIUS: f64 = 0.5;
+const DROP_RADIUS: f64 = 0.4;
 const THICKNESS_RADIUS: f64 = 2.8;
 /// The filter's standard deviation, in distances of particles.
 const SMOOTHING: f64 = 1.0;
@@ -58,11 +61,14 @@ impl Water {
             .map(linear);
         let four = |[r, g, b]: [f32; 3]| [r, g, b, 0.0];
         let spacing = 2.0 * scene.radius();
+        let [low, high] = walls(scene);
         let full = scene.usual_neighbors(1.0);
         Self {
             absorption: four(color.map(|channel| -channel.max(1e-4).ln() / length as f32)),
             scatter: four(color.map(|channel| SCATTER * channel)),
             drop: four(color.map(|channel| 0.5 + 0.5 * channel)),
+            low: four(low),
+            high: four(high),
             radius: (SURFACE_RADIUS * style.radius) as f32,
             drop_radius: (DROP_RADIUS * style.radius) as f32,
             reach: (THICKNESS_RADIUS * style.radius) as f32,
@@ -77,6 +83,22 @@ impl Water {
             reserved: 0.0,
         }
     }
+}
+
+/// Lower and upper end of what walls enclose, metres; 1e9 on sides that are open.
+fn walls(scene: &Scene) -> [[f32; 3]; 2] {
+    let domain = &scene.domain;
+    let end = |side: usize| {
+        let (place, far) = match side {
+            0 => (domain.min, -1e9),
+            _ => (domain.max, 1e9),
+        };
+        std::array::from_fn(|axis| match domain.sides[axis][side] {
+            Wall::Open => far,
+            _ => place[axis],
+        })
+    };
+    [end(0), end(1)]
 }
 
 /// Texels of the thickness seen by the light, along a side.

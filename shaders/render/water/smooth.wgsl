@@ -10,7 +10,7 @@ var<storage, read> water_surface: array<f32>;
 var<storage, read_write> next_water_surface: array<f32>;
 
 // Samples on each side; where the filter is wider, it skips some, which narrower ones after it make up for.
-const TAPS: i32 = 10;
+const TAPS: i32 = 12;
 
 fn surface_at(place: vec2i, size: vec2i) -> f32 {
     if any(place < vec2i(0)) || any(place >= size) {
@@ -70,20 +70,20 @@ fn smooth_columns(thread: Thread) {
 
 @compute @workgroup_size(GROUP_SIZE)
 fn smooth_rows_again(thread: Thread) {
-    smooth_surface(item_index(thread), vec2i(1, 0), 0.5);
+    smooth_surface(item_index(thread), vec2i(1, 0), 0.4);
 }
 
 @compute @workgroup_size(GROUP_SIZE)
 fn smooth_columns_again(thread: Thread) {
-    smooth_surface(item_index(thread), vec2i(0, 1), 0.5);
+    smooth_surface(item_index(thread), vec2i(0, 1), 0.4);
 }
 
 @compute @workgroup_size(GROUP_SIZE)
 fn smooth_rows_finely(thread: Thread) {
-    smooth_surface(item_index(thread), vec2i(1, 0), 0.25);
+    smooth_surface(item_index(thread), vec2i(1, 0), 0.12);
 }
 
 @compute @workgroup_size(GROUP_SIZE)
 fn smooth_columns_finely(thread: Thread) {
-    smooth_surface(item_index(thread), vec2i(0, 1), 0.25);
+    smooth_surface(item_index(thread), vec2i(0, 1), 0.12);
 }

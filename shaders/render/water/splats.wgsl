@@ -25,8 +25,8 @@ fn place_water_surface(@builtin(vertex_index) index: u32, @builtin(instance_inde
 fn cut_water_surface(corner: Corner) -> @builtin(frag_depth) f32 {
     let ray = hit(corner);
     let slope = select(ray.direction, vec3f(1e-9), abs(ray.direction) < vec3f(1e-9));
-    let low = (picture.domain_min.xyz - corner.point) / slope;
-    let high = (picture.domain_max.xyz - corner.point) / slope;
+    let low = (water.low.xyz - corner.point) / slope;
+    let high = (water.high.xyz - corner.point) / slope;
     let nearest = min(low, high);
     let farthest = max(low, high);
     let enters = max(ray.enters, max(nearest.x, max(nearest.y, nearest.z)));

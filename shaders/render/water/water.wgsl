@@ -4,6 +4,8 @@ struct Water {
     absorption: vec4f, // per metre
     scatter: vec4f, // what comes back from within deep water
     drop: vec4f, // color of clear drops
+    low: vec4f, // where walls cut the surface; far away where sides are open
+    high: vec4f,
     radius: f32, // of the spheres that the surface is made from
     drop_radius: f32, // of a particle without neighbors
     reach: f32, // radius of the spheres that thickness is spread over
