@@ -32,7 +32,7 @@ enum Particles {
         color: Pass,
         resolve: Pass,
     },
-    Water(WaterStages),
+    Water(Box<WaterStages>),
 }
 
 pub const STRIP: wgpu::PrimitiveTopology = wgpu::PrimitiveTopology::TriangleStrip;
@@ -212,7 +212,7 @@ impl Stages {
             false => None,
         };
         let particles = match parts.water {
-            true => Particles::Water(WaterStages::new(&maker)?),
+            true => Particles::Water(Box::new(WaterStages::new(&maker)?)),
             false => Particles::Splats {
                 color: maker.compute("color_splats")?,
                 resolve: maker.compute("resolve")?,
