@@ -31,7 +31,8 @@
 //!   smoothing kernels (`src/physics/kernels.rs`). Buffers and shader modules that fields are made into
 //!   (`src/physics/fields.rs`). Steps whose length the device chooses (`src/physics/step_control.rs`). Probes of sensors, and what
 //!   their readings mean (`src/physics/sensors.rs`).
-//! - `src/render/`: pictures from the simulation's own buffers: splats, colliders, slices, the pool's heatmap, legends.
+//! - `src/render/`: pictures from the simulation's own buffers: splats, water (`src/render/water.rs`), colliders, slices, the
+//!   pool's heatmap, legends.
 //! - `src/plan/`: scene + limits → every buffer and pass, with the reason for each. Needs no GPU. What is good enough for an
 //!   error, from what was measured (`src/plan/achieved.rs`).
 //! - `src/simulation/`: executes a plan: steps, frames, what comes back. Grids that need more room get it

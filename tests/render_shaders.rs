@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sliceflow::gpu::{Shader, Variant, compose};
 use sliceflow::neighbors::NO_VOXEL;
 use sliceflow::physics::fields;
-use sliceflow::render::{Picture, PoolPanel};
+use sliceflow::render::{Picture, PoolPanel, Water};
 use sliceflow::scene::column::{COLUMNS, Column};
 use sliceflow::scene::field::FIELDS;
 
@@ -20,7 +20,14 @@ fn file_of(column: &Column, modules: &BTreeMap<String, String>) -> String {
 
 fn variants() -> Vec<Variant> {
     let mut all = Vec::new();
-    for (two, solid, floor) in [(true, false, false), (false, false, false), (false, true, true)] {
+    let on = [
+        [true, false, false, false],
+        [false; 4],
+        [false, true, false, false],
+        [false, true, true, false],
+        [false, true, true, true],
+    ];
+    for [two, solid, water, transparent] in on {
         for column in COLUMNS.iter() {
             let mut variant = Variant::default();
             variant.modules.extend(fields::modules(FIELDS));
@@ -32,7 +39,9 @@ fn variants() -> Vec<Variant> {
                 .flag("shadows", solid)
                 .flag("occlusion", solid)
                 .flag("round_shadows", solid)
-                .flag("has_floor", floor)
+                .flag("has_floor", solid)
+                .flag("water", water)
+                .flag("transparent", transparent)
                 .constant("SHADOW_TEXELS", 1024)
                 .constant("OCCLUSION_BLOCK", 8)
                 .role("column", file_of(column, &fields::modules(FIELDS)))
@@ -78,6 +87,7 @@ fn uniforms_have_one_layout_on_both_sides() {
     for (path, layout) in [
         ("render/picture", Picture::LAYOUT),
         ("render/pool", PoolPanel::LAYOUT),
+        ("render/water/water", Water::LAYOUT),
     ] {
         let shader = Shader::load(path, variant).unwrap();
         let found = shader

@@ -4,12 +4,19 @@
 #if shadows
 #import render/shadow
 #end
+#if water
+#import render/water/light
+#end
 
-// Linear color at a place of the scene's rectangle, in pixels.
-fn backdrop(pixel: vec2f) -> vec3f {
+// Linear color at a place of the scene's rectangle, in pixels, multiplied by its alpha.
+fn backdrop(pixel: vec2f) -> vec4f {
     let size = vec2f(picture.rectangle.zw);
+#if transparent
+    var color = vec4f(0.0);
+#else
     let height = 1.0 - pixel.y / size.y;
-    var color = mix(picture.backdrop_low.rgb, picture.backdrop_high.rgb, smoothstep(0.0, 1.0, height));
+    var color = vec4f(mix(picture.backdrop_low.rgb, picture.backdrop_high.rgb, smoothstep(0.0, 1.0, height)), 1.0);
+#end
 #if has_floor
     let ndc = vec2f(2.0 * pixel.x / size.x - 1.0, 1.0 - 2.0 * pixel.y / size.y) - picture.lens.zw;
     let sideways = picture.right.xyz * (ndc.x * picture.lens.x) + picture.up.xyz * (ndc.y * picture.lens.y);
@@ -26,13 +33,20 @@ fn backdrop(pixel: vec2f) -> vec3f {
         let center = 0.5 * (picture.domain_min.xyz + picture.domain_max.xyz);
         let away = length(point.xz - center.xz);
         let fade = 1.0 - smoothstep(picture.floor_fade_begin, picture.floor_fade_end, away);
-        var shade = 0.0;
+        var shade = vec3f(0.0);
 #if shadows
         if fade > 0.0 {
-            shade = 1.0 - soft_sunlight(point);
+            shade = vec3f(1.0 - soft_sunlight(point));
+#if water
+            shade = 1.0 - (1.0 - shade) * light_through_water(point);
+#end
         }
 #end
-        color = mix(color, picture.floor_color.rgb * (1.0 - picture.floor_color.w * shade), fade);
+#if transparent
+        color.a = fade * picture.floor_color.w * dot(shade, vec3f(0.2126, 0.7152, 0.0722));
+#else
+        color = mix(color, vec4f(picture.floor_color.rgb * (1.0 - picture.floor_color.w * shade), 1.0), fade);
+#end
     }
 #end
     return color;

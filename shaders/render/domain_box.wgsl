@@ -16,6 +16,12 @@ fn place_domain_edge(@builtin(vertex_index) index: u32, @builtin(instance_index)
     return line_corner(low + size * box_edge(which, 0.0), low + size * box_edge(which, 1.0), index);
 }
 
+// Edges of a glass tank.
+@fragment
+fn draw_glass() -> @location(0) vec4f {
+    return vec4f(0.30, 0.34, 0.37, 1.0);
+}
+
 @fragment
 fn draw_red() -> @location(0) vec4f {
     return vec4f(0.72, 0.02, 0.03, 1.0);

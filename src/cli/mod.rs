@@ -12,6 +12,7 @@ mod diff;
 mod grid;
 mod import;
 mod inspect;
+mod look_args;
 mod measure;
 mod neighbors;
 mod new;

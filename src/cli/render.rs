@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::look_args::LookArgs;
 use super::scene_args::size;
 use super::sitting_args::{SittingArgs, beside};
 use crate::error::Result;
@@ -29,6 +30,8 @@ pub struct Args {
     /// Size of pictures, pixels
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<[u32; 2]>,
+    #[command(flatten)]
+    looks: LookArgs,
     /// Makes a video: .mp4 and .webm by the program ffmpeg; .gif and .png (animated), small, by Sliceflow itself
     #[arg(long, value_name = "FILE")]
     video: Option<PathBuf>,
@@ -49,12 +52,16 @@ const EXAMPLES: &str = "\
 Examples:
   sliceflow render out/green_cube --set render.color.by=y --set render.color.map=turbo
   sliceflow render out/green_cube --size 3840x2160 --out out/green_cube_large
+  sliceflow render out/dam --look water --no-overlay
   sliceflow render out/dam --set render.color.by=pressure --frames 10..40 --video out/dam.gif
   sliceflow render out/harada_figure_2_small --view both --set neighbors.storage=pool";
 
 pub fn main(args: &Args) -> Result<()> {
     let recorded = Recorded::read(&args.run)?;
     let mut overrides = args.set.clone();
+    args.looks.put(&mut |key: &str, value: Option<String>| {
+        overrides.extend(value.map(|value| format!("{key}={value}")));
+    });
     overrides.extend(args.view.iter().map(|view| format!("render.view={view}")));
     overrides.extend(
         args.size

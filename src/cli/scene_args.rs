@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use super::grid;
+use super::look_args::LookArgs;
 use crate::error::Result;
 use crate::files;
 use crate::scene::allowance::{Allowance, MOST_PARTICLES};
@@ -36,6 +37,8 @@ pub struct SceneArgs {
     /// (repeatable)
     #[arg(long, value_name = "DIR")]
     allow_read: Vec<PathBuf>,
+    #[command(flatten)]
+    looks: LookArgs,
 }
 
 /// Choices that not every command leaves to the user.
@@ -68,7 +71,11 @@ impl SceneArgs {
 
     /// Whether a key of the scene is changed, which a particle file has not.
     pub fn changes_scene(&self) -> bool {
-        !self.set.is_empty() || self.fps.is_some() || self.seed.is_some() || self.size.is_some()
+        !self.set.is_empty()
+            || self.fps.is_some()
+            || self.seed.is_some()
+            || self.size.is_some()
+            || self.looks.is_given()
     }
 
     fn overrides(&self, choices: &Choices) -> Result<Vec<String>> {
@@ -82,6 +89,7 @@ impl SceneArgs {
             "render.size",
             self.size.map(|[width, height]| format!("[{width},{height}]")),
         );
+        self.looks.put(&mut put);
         put("render.view", choices.view.map(str::to_owned));
         if let Some(name) = choices.grid {
             overrides.extend(grid::overrides(name)?);
@@ -163,6 +171,7 @@ mod tests {
             max_particles: MOST_PARTICLES,
             max_memory: None,
             allow_read: Vec::new(),
+            looks: LookArgs::default(),
         }
     }
 

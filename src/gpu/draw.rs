@@ -16,7 +16,19 @@ pub enum Blend {
     Opaque,
     /// They are laid over; colors stand multiplied by their alpha, depth is tested and not written.
     Over,
+    /// They are added to what was there; depth is neither tested nor kept.
+    Add,
 }
+
+const SUM: wgpu::BlendState = wgpu::BlendState {
+    color: ADDED,
+    alpha: ADDED,
+};
+const ADDED: wgpu::BlendComponent = wgpu::BlendComponent {
+    src_factor: wgpu::BlendFactor::One,
+    dst_factor: wgpu::BlendFactor::One,
+    operation: wgpu::BlendOperation::Add,
+};
 
 /// What a draw is drawn into and how.
 #[derive(Debug, Clone, Copy)]
@@ -52,6 +64,7 @@ impl Draw {
             blend: match blend {
                 Blend::Opaque => None,
                 Blend::Over => Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                Blend::Add => Some(SUM),
             },
             write_mask: wgpu::ColorWrites::ALL,
         });
@@ -73,7 +86,7 @@ impl Draw {
                     topology: style.topology,
                     ..Default::default()
                 },
-                depth_stencil: Some(wgpu::DepthStencilState {
+                depth_stencil: (blend != Blend::Add).then(|| wgpu::DepthStencilState {
                     format: DEPTH_FORMAT,
                     depth_write_enabled: Some(blend == Blend::Opaque),
                     // Of two fragments at one depth the first drawn stays: buffer order, which is repeatable.

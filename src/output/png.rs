@@ -71,13 +71,18 @@ pub fn compose(frame: &Frame, overlay: &Overlay) -> Result<Option<RgbaImage>> {
     overlay.finish(pixels, &caption).map(Some)
 }
 
-/// PNG bytes, compressed fast. Pictures are opaque, so alpha is left out. `path` is for the message.
+/// PNG bytes, compressed fast; alpha is left out of pictures that are opaque. `path` is for the message.
 pub fn encode(picture: RgbaImage, path: &Path) -> Result<Vec<u8>> {
     let (width, height) = picture.dimensions();
-    let rgb = DynamicImage::ImageRgba8(picture).into_rgb8();
-    let mut bytes = Cursor::new(Vec::with_capacity(rgb.len() / 2));
+    let is_opaque = picture.pixels().all(|pixel| pixel.0[3] == 255);
+    let picture = DynamicImage::ImageRgba8(picture);
+    let picture = match is_opaque {
+        true => DynamicImage::ImageRgb8(picture.into_rgb8()),
+        false => picture,
+    };
+    let mut bytes = Cursor::new(Vec::with_capacity(picture.as_bytes().len() / 2));
     PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Adaptive)
-        .write_image(&rgb, width, height, image::ExtendedColorType::Rgb8)
+        .write_image(picture.as_bytes(), width, height, picture.color().into())
         .map_err(|reason| Error::file(path, "encode", reason, "this is a defect, please report it"))?;
     Ok(bytes.into_inner())
 }

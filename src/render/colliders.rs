@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec3, Vec3};
 
-use super::look::linear;
+use super::backdrop::linear;
 use crate::scene::mesh::Mesh;
 use crate::scene::{Collider, ColliderShape, Dimensions, Domain, Scene};
 

@@ -1,14 +1,14 @@
 //! Pictures of the particles, straight from the simulation's buffers (the point-splat pipeline of Rojas 2013).
 //!
 //! A picture is made of few passes: shadows; what spheres surely hide; each particle's color; colliders, particles
-//! and lines into a supersampled texture; and the resolve into `frame_pixels`. Nothing comes back but pixels, which
-//! [`Overlay`] finishes on an encoder thread.
+//! and lines into a supersampled texture; and the resolve into `frame_pixels`. Water takes the particles' place with passes
+//! of its own (`water.rs`). Nothing comes back but pixels, which [`Overlay`] finishes on an encoder thread.
 
+mod backdrop;
 mod camera;
 mod colliders;
 mod layout;
 mod light;
-mod look;
 mod needs;
 mod overlay;
 mod picture;
@@ -17,17 +17,21 @@ mod stages;
 mod style;
 mod text;
 pub mod ticks;
+mod water;
+mod water_stages;
 
 use glam::Vec3;
 
+pub use backdrop::POOL_COLORS;
 pub use camera::Sight;
 pub use colliders::{Vertices, triangles as collider_vertices};
 pub use layout::{Layout, PoolPlace, Rectangle};
-pub use look::POOL_COLORS;
 pub use needs::{DrawNeed, Needs, TextureNeed, needs};
 pub use overlay::{Caption, Overlay};
 pub use picture::{Picture, PoolPanel};
 pub use style::Style;
+pub use text::over_white;
+pub use water::Water;
 
 use crate::error::{Error, Result};
 use crate::gpu::{Buffers, Gpu, Pass, Shader, Variant};
@@ -67,7 +71,7 @@ impl Renderer {
         check_limits(gpu, &needs)?;
         for need in &needs.buffers {
             if !buffers.contains(&need.name) {
-                buffers.create(gpu, &need.name, need.bytes, need.usage)?;
+                buffers.make(gpu, need)?;
             }
         }
         let variant = style.variant(scene, variant);
@@ -80,9 +84,11 @@ impl Renderer {
                     )
                 })?;
                 let entries: Vec<u32> = (0..256)
-                    .map(|k| look::packed((map.at)(f64::from(k) / 255.0)) & 0x00ff_ffff)
+                    .map(|k| backdrop::packed((map.at)(f64::from(k) / 255.0)) & 0x00ff_ffff)
                     .collect();
-                buffers.write(gpu, "color_map", 0, &entries)?;
+                if buffers.contains("color_map") {
+                    buffers.write(gpu, "color_map", 0, &entries)?;
+                }
                 if style.colliders {
                     buffers.write(gpu, "collider_vertex", 0, &colliders::triangles(scene))?;
                 }

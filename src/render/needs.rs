@@ -5,10 +5,17 @@ use super::layout::Layout;
 use super::light::SHADOW_TEXELS;
 use super::picture::{Picture, PoolPanel};
 use super::style::Style;
+use super::water;
 use crate::gpu::BufferPlan;
+use crate::gpu::draw::DEPTH_FORMAT;
 use crate::scene::Scene;
 use crate::scene::column::Source;
 use crate::scene::model::View;
+
+/// The color target: sRGB bytes, so that blending and averaging happen in linear light.
+pub const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+/// Half floats, which every adapter adds up.
+pub const THICKNESS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
 
 /// Pixels along a side of the blocks that hide spheres; `OCCLUSION_BLOCK` in shaders.
 pub const BLOCK: u32 = 8;
@@ -17,6 +24,7 @@ pub const BLOCK: u32 = 8;
 pub struct TextureNeed {
     pub name: String,
     pub size: [u32; 2],
+    pub format: wgpu::TextureFormat,
     pub bytes: u64,
     pub why: String,
 }
@@ -44,20 +52,29 @@ impl Needs {
         self.buffers.push(BufferPlan::uniform(name, bytes, why));
     }
 
-    fn storage(&mut self, name: &str, count: u64, element: u64, why: &str) {
+    pub(super) fn storage(&mut self, name: &str, count: u64, element: u64, why: &str) {
         self.buffers.push(BufferPlan::storage(name, count, element, why));
     }
 
-    fn texture(&mut self, name: &str, size: [u32; 2], why: &str) {
+    fn texture(&mut self, name: &str, size: [u32; 2], format: wgpu::TextureFormat, why: &str) {
         self.textures.push(TextureNeed {
             name: name.to_owned(),
             size,
-            bytes: u64::from(size[0]) * u64::from(size[1]) * 4,
+            format,
+            bytes: u64::from(size[0]) * u64::from(size[1]) * if format == THICKNESS_FORMAT { 2 } else { 4 },
             why: why.to_owned(),
         });
     }
 
-    fn draw(&mut self, on: bool, label: &str, fragment: Option<&str>, shader: &str, why: &str) {
+    pub(super) fn depth_texture(&mut self, name: &str, size: [u32; 2], why: &str) {
+        self.texture(name, size, DEPTH_FORMAT, why);
+    }
+
+    pub(super) fn thickness_texture(&mut self, name: &str, size: [u32; 2], why: &str) {
+        self.texture(name, size, THICKNESS_FORMAT, why);
+    }
+
+    pub(super) fn draw(&mut self, on: bool, label: &str, fragment: Option<&str>, shader: &str, why: &str) {
         if on {
             self.draws.push(DrawNeed {
                 label: label.to_owned(),
@@ -104,9 +121,13 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         size_of::<Picture>() as u64,
         "camera, light, range of the colors",
     );
-    needs.storage("color_map", 256, 4, "the color map, 256 entries");
     let capacity = u64::from(scene.capacity.max(1));
-    needs.storage("splat", capacity, 4, "color and visibility of each particle");
+    if style.water {
+        water::add_resources(needs, scene, style, size);
+    } else {
+        needs.storage("color_map", 256, 4, "the color map, 256 entries");
+        needs.storage("splat", capacity, 4, "color and visibility of each particle");
+    }
     if scene.color.column.source == Source::Given {
         let why = "what colors each particle, as files hold it";
         needs.storage("given_column", capacity, 4, why);
@@ -132,16 +153,17 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         );
     }
     let samples = size.map(|side| side * scene.render.antialias);
-    needs.texture("scene_color", samples, "the scene, several samples per pixel");
-    needs.texture("scene_depth", samples, "what is in front");
+    let why = "the scene, several samples per pixel";
+    needs.texture("scene_color", samples, COLOR_FORMAT, why);
+    needs.depth_texture("scene_depth", samples, "what is in front");
     if style.shadows {
-        needs.texture("shadow_map", [SHADOW_TEXELS; 2], "depth from the light");
+        needs.depth_texture("shadow_map", [SHADOW_TEXELS; 2], "depth from the light");
     }
     if style.occlusion {
-        needs.texture("occluder_depth", size, "depth of what surely hides");
+        needs.depth_texture("occluder_depth", size, "depth of what surely hides");
     }
     needs.draw(
-        style.shadows,
+        style.shadows && !style.water,
         "cast_splat",
         style.round_shadows.then_some("round_splat"),
         "render/cast_shadow",
@@ -169,7 +191,7 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         "the same, by blocks of pixels",
     );
     needs.draw(
-        true,
+        !style.water,
         "color_splats",
         None,
         "render/color_splats",
@@ -183,13 +205,30 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         "colliders",
     );
     let (vertex, fragment) = style.splat_entries();
-    needs.draw(true, vertex, Some(fragment), style.splat_shader(), "particles");
+    needs.draw(
+        style.water,
+        "place_water_drop",
+        Some("shade_water_drop"),
+        "render/water/drops",
+        "particles with few neighbors",
+    );
+    needs.draw(
+        !style.water,
+        vertex,
+        Some(fragment),
+        style.splat_shader(),
+        "particles",
+    );
+    let (edge, why) = match style.water {
+        true => ("draw_glass", "the domain, a glass tank"),
+        false => ("draw_red", "the domain in red lines"),
+    };
     needs.draw(
         style.domain,
         "place_domain_edge",
-        Some("draw_red"),
+        Some(edge),
         "render/domain_box",
-        "the domain in red lines",
+        why,
     );
     needs.draw(
         style.slices,
@@ -205,8 +244,11 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         "render/slices",
         "edges of the slices",
     );
+    if style.water {
+        water::add_draws(needs);
+    }
     needs.draw(
-        true,
+        !style.water,
         "resolve",
         None,
         "render/resolve",

@@ -2,8 +2,8 @@
 
 use image::RgbaImage;
 
+use super::backdrop::{Rgb, backdrop};
 use super::layout::{Layout, Rectangle};
-use super::look::{Rgb, look};
 use super::pool_legend::PoolLegend;
 use super::text::{Writer, blend, fill};
 use super::ticks::{grouped, labels, ticks};
@@ -43,18 +43,21 @@ struct ColorBar {
 impl Overlay {
     pub fn new(scene: &Scene, view: View) -> Result<Self> {
         let layout = Layout::new(scene, view);
-        let look = look(scene.render.background);
+        let text = backdrop(scene.render.background).text;
         let bar = match layout.scene {
             Some(_) if scene.color.legend => Some(ColorBar::new(scene)?),
             _ => None,
         };
         Ok(Self {
             layout,
-            writer: Writer::new((17.0 * layout.scale).max(9.0), look.text)?,
-            text: look.text,
+            writer: Writer::new((17.0 * layout.scale).max(9.0), text)?,
+            text,
             name: scene.render.show.caption.then(|| scene.name.clone()),
             bar,
-            pool: layout.pool.map(|place| PoolLegend::new(scene, place, look.text)),
+            pool: layout
+                .pool
+                .filter(|_| scene.render.show.overlay)
+                .map(|place| PoolLegend::new(scene, place, text)),
         })
     }
 

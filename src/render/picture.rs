@@ -1,9 +1,9 @@
 //! The uniforms of the picture passes, field for field as `shaders/render/picture.wgsl` and `pool.wgsl` have them.
 
+use super::backdrop::{Backdrop, POOL_COLORS, Rgb, backdrop, linear, packed};
 use super::camera::Sight;
 use super::layout::{Layout, Rectangle};
 use super::light::Light;
-use super::look::{Look, POOL_COLORS, Rgb, linear, look, packed};
 use super::style::Style;
 use crate::scene::Scene;
 use crate::shared_struct;
@@ -89,7 +89,7 @@ impl Picture {
         let sight = Sight::new(scene, size, layout.insets, time);
         let first = Sight::new(scene, size, layout.insets, 0.0);
         let light = Light::new(scene, &first, floor_height(scene));
-        let look: Look = look(scene.render.background);
+        let backdrop: Backdrop = backdrop(scene.render.background);
         let diagonal = f64::from((scene.domain.max - scene.domain.min).length());
         let [low, high] = scene.color.range;
         // Position columns are local on the device; the origin is taken off here, in f64.
@@ -113,9 +113,9 @@ impl Picture {
             light: four(light.toward, light.texel),
             domain_min: scene.domain.min.extend(0.0).to_array(),
             domain_max: scene.domain.max.extend(0.0).to_array(),
-            floor_color: linear_color(look.floor, f32::from(look.shadow) / 100.0),
-            backdrop_low: linear_color(look.backdrop_low, 1.0),
-            backdrop_high: linear_color(look.backdrop_high, 1.0),
+            floor_color: linear_color(backdrop.floor, f32::from(backdrop.shadow) / 100.0),
+            backdrop_low: linear_color(backdrop.low, 1.0),
+            backdrop_high: linear_color(backdrop.high, 1.0),
             rectangle: rectangle(place),
             radius: style.radius as f32,
             color_low: local_low as f32,
@@ -140,7 +140,7 @@ impl PoolPanel {
         Self {
             rectangle: rectangle(place.panel),
             square: [x, y, side, 0],
-            background: packed(look(scene.render.background).panel),
+            background: packed(backdrop(scene.render.background).panel),
             frame_width: layout.frame[0],
             empty,
             one,

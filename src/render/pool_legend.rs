@@ -2,8 +2,8 @@
 
 use image::RgbaImage;
 
+use super::backdrop::{POOL_COLORS, Rgb};
 use super::layout::PoolPlace;
-use super::look::{POOL_COLORS, Rgb};
 use super::text::{Writer, fill};
 use super::ticks::grouped;
 use crate::scene::Scene;

@@ -4,16 +4,15 @@ use super::colliders;
 use super::needs::{BLOCK, Needs};
 use super::picture::Picture;
 use super::style::Style;
+use super::water_stages::WaterStages;
 use crate::error::Result;
-use crate::gpu::draw::DEPTH_FORMAT;
-use crate::gpu::{Blend, Buffers, Draw, DrawStyle, Gpu, Pass, Shader, Variant};
+use crate::gpu::binding::Given;
+use crate::gpu::{Blend, Buffers, Draw, DrawStyle, Gpu, Kernel, Pass, Shader, Variant};
+use crate::render::needs::{COLOR_FORMAT, DrawNeed, THICKNESS_FORMAT};
 use crate::scene::Scene;
 
-/// The color target: sRGB bytes, so that blending and averaging happen in linear light.
-const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
-
 /// A draw with its vertices an instance and its instances; `None` is one per particle.
-type Placed = (Draw, u32, Option<u32>);
+pub type Placed = (Draw, u32, Option<u32>);
 
 pub struct Stages {
     picture: wgpu::Buffer,
@@ -22,46 +21,132 @@ pub struct Stages {
     depth: wgpu::TextureView,
     shadows: Option<(wgpu::TextureView, Vec<Placed>)>,
     occluders: Option<(wgpu::TextureView, Draw, Pass)>,
-    color_splats: Pass,
     draws: Vec<Placed>,
-    resolve: Pass,
+    particles: Particles,
 }
 
-const STRIP: wgpu::PrimitiveTopology = wgpu::PrimitiveTopology::TriangleStrip;
+/// How particles get into the picture.
+enum Particles {
+    /// As splats among the draws: their colors before these, the samples' average after them.
+    Splats {
+        color: Pass,
+        resolve: Pass,
+    },
+    Water(Box<WaterStages>),
+}
+
+pub const STRIP: wgpu::PrimitiveTopology = wgpu::PrimitiveTopology::TriangleStrip;
 const LIST: wgpu::PrimitiveTopology = wgpu::PrimitiveTopology::TriangleList;
 
-fn style(topology: wgpu::PrimitiveTopology, blend: Option<Blend>) -> DrawStyle {
-    DrawStyle {
-        color: blend.map(|blend| (COLOR_FORMAT, blend)),
-        topology,
-    }
+/// Makes the passes and draws that a picture needs.
+pub struct Maker<'a> {
+    gpu: &'a Gpu,
+    variant: &'a Variant,
+    buffers: &'a Buffers,
+    needs: &'a Needs,
+    views: Vec<(&'a str, wgpu::TextureView)>,
+    shadow_sampler: wgpu::Sampler,
 }
 
-fn texture(gpu: &Gpu, needs: &Needs, name: &str) -> Result<Option<wgpu::TextureView>> {
-    let Some(need) = needs.textures.iter().find(|need| need.name == name) else {
-        return Ok(None);
-    };
-    let descriptor = wgpu::TextureDescriptor {
-        label: Some(name),
-        size: wgpu::Extent3d {
-            width: need.size[0],
-            height: need.size[1],
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: if name == "scene_color" {
-            COLOR_FORMAT
-        } else {
-            DEPTH_FORMAT
-        },
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    };
-    let what = || format!("texture `{name}` of {} bytes", need.bytes);
-    let made = gpu.make(what, |device| device.create_texture(&descriptor))?;
-    Ok(Some(made.create_view(&Default::default())))
+impl<'a> Maker<'a> {
+    fn new(gpu: &'a Gpu, variant: &'a Variant, buffers: &'a Buffers, needs: &'a Needs) -> Result<Self> {
+        let mut views = Vec::new();
+        for need in &needs.textures {
+            let descriptor = wgpu::TextureDescriptor {
+                label: Some(&need.name),
+                size: wgpu::Extent3d {
+                    width: need.size[0],
+                    height: need.size[1],
+                    depth_or_array_layers: 1,
+                },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: need.format,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+                view_formats: &[],
+            };
+            let what = || format!("texture `{}` of {} bytes", need.name, need.bytes);
+            let made = gpu.make(what, |device| device.create_texture(&descriptor))?;
+            views.push((need.name.as_str(), made.create_view(&Default::default())));
+        }
+        let shadow_sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("shadow_sampler"),
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            compare: Some(wgpu::CompareFunction::LessEqual),
+            ..Default::default()
+        });
+        Ok(Self {
+            gpu,
+            variant,
+            buffers,
+            needs,
+            views,
+            shadow_sampler,
+        })
+    }
+
+    fn find(&self, texture: &str) -> Option<wgpu::TextureView> {
+        let mut views = self.views.iter();
+        let found = views.find(|(name, _)| *name == texture)?;
+        Some(found.1.clone())
+    }
+
+    /// A texture that the picture needs.
+    pub fn view(&self, texture: &str) -> wgpu::TextureView {
+        self.find(texture).expect("a picture needs what it draws into")
+    }
+
+    fn given(&self) -> Vec<Given<'_>> {
+        let views = self.views.iter();
+        views
+            .map(|(name, view)| (*name, wgpu::BindingResource::TextureView(view)))
+            .chain([(
+                "shadow_sampler",
+                wgpu::BindingResource::Sampler(&self.shadow_sampler),
+            )])
+            .collect()
+    }
+
+    fn need(&self, label: &str) -> &DrawNeed {
+        let need = self.needs.draws.iter().find(|need| need.label == label);
+        need.expect("a picture needs what it draws")
+    }
+
+    fn shader(&self, label: &str) -> Result<Shader> {
+        Shader::load(&self.need(label).shader, self.variant)
+    }
+
+    /// A draw into a color target, or of depth alone without `blend`.
+    pub fn draw(&self, label: &str, topology: wgpu::PrimitiveTopology, blend: Option<Blend>) -> Result<Draw> {
+        let fragment = self.need(label).fragment.as_deref();
+        let shader = self.shader(label)?;
+        let color = blend.map(|blend| match blend {
+            Blend::Add => (THICKNESS_FORMAT, blend),
+            Blend::Opaque | Blend::Over => (COLOR_FORMAT, blend),
+        });
+        let style = DrawStyle { color, topology };
+        Draw::new(
+            self.gpu,
+            &shader,
+            label,
+            fragment,
+            style,
+            self.buffers,
+            &self.given(),
+        )
+    }
+
+    pub fn compute(&self, label: &str) -> Result<Pass> {
+        let shader = self.shader(label)?;
+        Pass::with_textures(self.gpu, &shader, label, self.buffers, &self.given())
+    }
+
+    /// A pass in which each `name` and `next_name` have changed places.
+    pub fn flipped(&self, label: &str) -> Result<Pass> {
+        Kernel::new(self.gpu, &self.shader(label)?, label)?.flipped_pass(self.gpu, self.buffers)
+    }
 }
 
 impl Stages {
@@ -73,72 +158,35 @@ impl Stages {
         buffers: &Buffers,
         needs: &Needs,
     ) -> Result<Self> {
-        let load = |path: &str| Shader::load(path, variant);
-        let target = |name: &str| texture(gpu, needs, name);
-        let (Some(color), Some(depth)) = (target("scene_color")?, target("scene_depth")?) else {
-            unreachable!("every scene picture has these targets");
-        };
-        let shadow_map = target("shadow_map")?;
-        let occluder_depth = target("occluder_depth")?;
-        let shadow_sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("shadow_sampler"),
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            compare: Some(wgpu::CompareFunction::LessEqual),
-            ..Default::default()
-        });
-        let mut textures = vec![
-            ("scene_color", wgpu::BindingResource::TextureView(&color)),
-            ("shadow_sampler", wgpu::BindingResource::Sampler(&shadow_sampler)),
-        ];
-        for (name, view) in [("shadow_map", &shadow_map), ("occluder_depth", &occluder_depth)] {
-            textures.extend(
-                view.as_ref()
-                    .map(|v| (name, wgpu::BindingResource::TextureView(v))),
-            );
-        }
-        let draw = |vertex: &str, style: DrawStyle| {
-            let need = needs.draws.iter().find(|need| need.label == vertex);
-            let need = need.expect("a picture needs what it draws");
-            let fragment = need.fragment.as_deref();
-            Draw::new(
-                gpu,
-                &load(&need.shader)?,
-                vertex,
-                fragment,
-                style,
-                buffers,
-                &textures,
-            )
-        };
-        let compute =
-            |path: &str, entry: &str| Pass::with_textures(gpu, &load(path)?, entry, buffers, &textures);
-
+        let maker = Maker::new(gpu, variant, buffers, needs)?;
         let collider_vertices = if parts.colliders {
             colliders::triangles(scene).len() as u32 / 2
         } else {
             0
         };
         let mut casts = Vec::new();
-        if parts.shadows {
-            casts.push((draw("cast_splat", style(STRIP, None))?, 4, None));
-            if parts.colliders {
-                let cast = draw("cast_collider", style(LIST, None))?;
-                casts.push((cast, collider_vertices, Some(1)));
-            }
+        if parts.shadows && !parts.water {
+            casts.push((maker.draw("cast_splat", STRIP, None)?, 4, None));
+        }
+        if parts.shadows && parts.colliders {
+            let cast = maker.draw("cast_collider", LIST, None)?;
+            casts.push((cast, collider_vertices, Some(1)));
         }
         let opaque = Some(Blend::Opaque);
         let over = Some(Blend::Over);
         let mut draws = Vec::new();
         if parts.colliders {
-            let solid = draw("place_collider", style(LIST, opaque))?;
+            let solid = maker.draw("place_collider", LIST, opaque)?;
             draws.push((solid, collider_vertices, Some(1)));
         }
-        let (splat, _) = parts.splat_entries();
-        draws.push((draw(splat, style(STRIP, opaque))?, 4, None));
+        let splat = match parts.water {
+            true => "place_water_drop",
+            false => parts.splat_entries().0,
+        };
+        draws.push((maker.draw(splat, STRIP, opaque)?, 4, None));
         if parts.domain {
             let edges = if parts.three_dimensional { 12 } else { 4 };
-            let lines = draw("place_domain_edge", style(STRIP, opaque))?;
+            let lines = maker.draw("place_domain_edge", STRIP, opaque)?;
             draws.push((lines, 4, Some(edges)));
         }
         if parts.slices {
@@ -146,16 +194,16 @@ impl Stages {
             let records = buffers.get("slice_record", "render/slices.wgsl")?.size() / 16;
             let slices = records.saturating_sub(1) as u32;
             let (sides, edges) = if parts.three_dimensional { (4, 12) } else { (1, 4) };
-            let fill = draw("place_slice_side", style(STRIP, over))?;
+            let fill = maker.draw("place_slice_side", STRIP, over)?;
             draws.push((fill, 4, Some(slices * sides)));
-            let lines = draw("place_slice_edge", style(STRIP, over))?;
+            let lines = maker.draw("place_slice_edge", STRIP, over)?;
             draws.push((lines, 4, Some(slices * edges)));
         }
-        let occluders = match &occluder_depth {
+        let occluders = match maker.find("occluder_depth") {
             Some(view) => Some((
-                view.clone(),
-                draw("place_occluder", style(STRIP, None))?,
-                compute("render/occlusion", "find_block_depth")?,
+                view,
+                maker.draw("place_occluder", STRIP, None)?,
+                maker.compute("find_block_depth")?,
             )),
             None => None,
         };
@@ -163,16 +211,22 @@ impl Stages {
             true => Some(buffers.get("collider_look", "render/colliders.wgsl")?.clone()),
             false => None,
         };
+        let particles = match parts.water {
+            true => Particles::Water(Box::new(WaterStages::new(&maker)?)),
+            false => Particles::Splats {
+                color: maker.compute("color_splats")?,
+                resolve: maker.compute("resolve")?,
+            },
+        };
         Ok(Self {
             picture: buffers.get("picture", "render/picture.wgsl")?.clone(),
             collider_look,
-            color_splats: compute("render/color_splats", "color_splats")?,
-            resolve: compute("render/resolve", "resolve")?,
-            shadows: shadow_map.clone().map(|view| (view, casts)),
+            shadows: maker.find("shadow_map").map(|view| (view, casts)),
             occluders,
             draws,
-            color,
-            depth,
+            color: maker.view("scene_color"),
+            depth: maker.view("scene_depth"),
+            particles,
         })
     }
 
@@ -189,25 +243,24 @@ impl Stages {
         }
         let [_, _, width, height] = picture.rectangle;
         if let Some((view, casts)) = &self.shadows {
-            draw_all(encoder, "cast_shadows", None, view, casts, picture.count);
+            draw_all(encoder, "cast_shadows", Target::Depth(view), casts, picture.count);
         }
         if let Some((view, place, find)) = &self.occluders {
             {
-                let mut pass = begin(encoder, &place.label, None, view);
+                let mut pass = begin(encoder, &place.label, Target::Depth(view));
                 place.encode(&mut pass, 4, picture.count);
             }
             dispatch(encoder, find, width.div_ceil(BLOCK) * height.div_ceil(BLOCK));
         }
-        dispatch(encoder, &self.color_splats, picture.count);
-        draw_all(
-            encoder,
-            "draw_scene",
-            Some(&self.color),
-            &self.depth,
-            &self.draws,
-            picture.count,
-        );
-        dispatch(encoder, &self.resolve, width * height);
+        if let Particles::Splats { color, .. } = &self.particles {
+            dispatch(encoder, color, picture.count);
+        }
+        let target = Target::Both(&self.color, &self.depth);
+        draw_all(encoder, "draw_scene", target, &self.draws, picture.count);
+        match &self.particles {
+            Particles::Splats { resolve, .. } => dispatch(encoder, resolve, width * height),
+            Particles::Water(stages) => stages.encode(encoder, picture),
+        }
         Ok(())
     }
 }
@@ -227,7 +280,7 @@ fn upload(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, buffer: &wgpu::Buffer, 
     Ok(())
 }
 
-fn dispatch(encoder: &mut wgpu::CommandEncoder, pass: &Pass, items: u32) {
+pub fn dispatch(encoder: &mut wgpu::CommandEncoder, pass: &Pass, items: u32) {
     let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
         label: Some(&pass.label),
         timestamp_writes: None,
@@ -235,45 +288,52 @@ fn dispatch(encoder: &mut wgpu::CommandEncoder, pass: &Pass, items: u32) {
     pass.encode(&mut compute, items);
 }
 
-fn draw_all(
+/// What a render pass draws into; all of it is cleared first.
+#[derive(Clone, Copy)]
+pub enum Target<'a> {
+    Color(&'a wgpu::TextureView),
+    Depth(&'a wgpu::TextureView),
+    Both(&'a wgpu::TextureView, &'a wgpu::TextureView),
+}
+
+pub fn draw_all(
     encoder: &mut wgpu::CommandEncoder,
     label: &str,
-    color: Option<&wgpu::TextureView>,
-    depth: &wgpu::TextureView,
+    target: Target,
     draws: &[Placed],
     count: u32,
 ) {
-    let mut pass = begin(encoder, label, color, depth);
+    let mut pass = begin(encoder, label, target);
     for (draw, vertices, instances) in draws {
         draw.encode(&mut pass, *vertices, instances.unwrap_or(count));
     }
 }
 
-fn begin<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    label: &str,
-    color: Option<&wgpu::TextureView>,
-    depth: &wgpu::TextureView,
-) -> wgpu::RenderPass<'a> {
-    let color = color.map(|view| wgpu::RenderPassColorAttachment {
-        view,
-        depth_slice: None,
-        resolve_target: None,
-        ops: wgpu::Operations {
-            load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-            store: wgpu::StoreOp::Store,
-        },
-    });
-    let attachments = [color];
+fn begin<'a>(encoder: &'a mut wgpu::CommandEncoder, label: &str, target: Target) -> wgpu::RenderPass<'a> {
+    let (color, depth) = match target {
+        Target::Color(color) => (Some(color), None),
+        Target::Depth(depth) => (None, Some(depth)),
+        Target::Both(color, depth) => (Some(color), Some(depth)),
+    };
+    let colors: Vec<_> = color
+        .into_iter()
+        .map(|view| {
+            Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
+            })
+        })
+        .collect();
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some(label),
-        color_attachments: if attachments[0].is_some() {
-            &attachments
-        } else {
-            &[]
-        },
-        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: depth,
+        color_attachments: &colors,
+        depth_stencil_attachment: depth.map(|view| wgpu::RenderPassDepthStencilAttachment {
+            view,
             depth_ops: Some(wgpu::Operations {
                 load: wgpu::LoadOp::Clear(1.0),
                 store: wgpu::StoreOp::Store,

@@ -7,7 +7,7 @@ use super::needs::BLOCK;
 use super::picture::floor_height;
 use crate::gpu::Variant;
 use crate::scene::column::Source;
-use crate::scene::model::{Addressing, Splat, View};
+use crate::scene::model::{Addressing, Background, Look, Splat, View};
 use crate::scene::{Dimensions, Scene};
 
 /// Which parts a picture has. All are false where the view shows the pool alone.
@@ -16,6 +16,10 @@ pub struct Style {
     pub three_dimensional: bool,
     /// Lit spheres; otherwise flat discs.
     pub spheres: bool,
+    /// The surface of water in place of spheres or discs.
+    pub water: bool,
+    /// Nothing behind the scene, so that pictures have alpha.
+    pub transparent: bool,
     /// Spheres and colliders cast shadows.
     pub shadows: bool,
     /// Spheres that others surely hide are not drawn.
@@ -35,19 +39,22 @@ impl Style {
         let render = &scene.render;
         let drawn = view != View::Pool;
         let three_dimensional = scene.dimensions == Dimensions::Three;
-        let spheres = render.splat == Splat::Sphere;
+        let spheres = render.splat == Splat::Sphere || render.look == Look::Spheres;
+        let water = drawn && render.look == Look::Water;
         let radius = scene.radius() * render.splat_scale;
         let layout = Layout::new(scene, view);
         let round_shadows = layout.scene.is_some_and(|place| {
             let sight = Sight::new(scene, [place.width, place.height], layout.insets, 0.0);
             radius > 3.0 * Light::new(scene, &sight, floor_height(scene)).texel
         });
-        let solid = drawn && three_dimensional && spheres;
+        let solid = drawn && three_dimensional && (spheres || water);
         Self {
             three_dimensional,
             spheres,
+            water,
+            transparent: render.background == Background::Transparent,
             shadows: solid,
-            occlusion: solid,
+            occlusion: solid && !water,
             round_shadows,
             floor: drawn && three_dimensional && render.show.floor,
             colliders: drawn && render.show.colliders && scene.colliders.iter().any(|c| c.visible),
@@ -76,6 +83,8 @@ impl Style {
             .flag("occlusion", self.occlusion)
             .flag("round_shadows", self.round_shadows)
             .flag("has_floor", self.floor)
+            .flag("water", self.water)
+            .flag("transparent", self.transparent)
             .constant("SHADOW_TEXELS", SHADOW_TEXELS)
             .constant("OCCLUSION_BLOCK", BLOCK)
             .role("column", column);

@@ -3,7 +3,7 @@
 use ab_glyph::{Font, FontRef, PxScale, ScaleFont, point};
 use image::RgbaImage;
 
-use super::look::Rgb;
+use super::backdrop::Rgb;
 use crate::error::{Error, Result};
 
 static INTER: &[u8] = include_bytes!("../../assets/fonts/Inter-Medium-Latin.ttf");
@@ -75,10 +75,30 @@ pub fn blend(image: &mut RgbaImage, (x, y): (i64, i64), color: Rgb, cover: f32) 
     let inside = |v: i64, size: u32| u32::try_from(v).ok().filter(|&v| v < size);
     if let (Some(x), Some(y)) = (inside(x, image.width()), inside(y, image.height())) {
         let pixel = image.get_pixel_mut(x, y);
+        let cover = cover.clamp(0.0, 1.0);
+        let alpha = f32::from(pixel.0[3]) / 255.0;
+        let joint = cover + alpha * (1.0 - cover);
+        let share = if alpha == 1.0 {
+            cover
+        } else {
+            cover / joint.max(1e-6)
+        };
         for (old, new) in pixel.0.iter_mut().zip(color) {
-            let mixed = f32::from(*old) + (f32::from(new) - f32::from(*old)) * cover.clamp(0.0, 1.0);
+            let mixed = f32::from(*old) + (f32::from(new) - f32::from(*old)) * share;
             *old = mixed.round() as u8;
         }
+        pixel.0[3] = (joint * 255.0).round() as u8;
+    }
+}
+
+/// Lays a picture that has alpha over white.
+pub fn over_white(image: &mut RgbaImage) {
+    for pixel in image.pixels_mut() {
+        let alpha = f32::from(pixel.0[3]) / 255.0;
+        for channel in &mut pixel.0[..3] {
+            *channel = (255.0 + (f32::from(*channel) - 255.0) * alpha).round() as u8;
+        }
+        pixel.0[3] = 255;
     }
 }
 

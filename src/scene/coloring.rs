@@ -1,7 +1,7 @@
 //! What colors the particles, and the range of values that the map spans.
 
 use super::frame::{Frame, Report};
-use super::model::{Axis, Cell, SceneFile};
+use super::model::{Axis, Cell, Look, SceneFile};
 use super::synonyms::suggest_word;
 use super::text::{list, number};
 use super::{Coloring, Dimensions, Particles, color_maps, column};
@@ -17,7 +17,14 @@ pub struct Known<'a> {
 }
 
 pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
-    let color = &known.file.render.color;
+    let mut color = known.file.render.color.clone();
+    if known.file.render.look == Look::Water {
+        // Water has a color of its own; what has few neighbors is spray.
+        color.by = "contacts".into();
+        color.range = None;
+        color.legend = false;
+    }
+    color.legend &= known.file.render.show.overlay;
     if color_maps::find(&color.map).is_none() {
         let names = color_maps::COLOR_MAPS.iter().map(|map| map.name);
         report.problem(

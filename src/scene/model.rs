@@ -15,7 +15,7 @@ use super::text::number;
 pub use fluid::{
     DensityFrom, Fluid, FluidSolver, Kernel, Material, NegativePressure, PressureForce, Slip, ViscosityForm,
 };
-pub use render::{Background, Camera, Color, Projection, Render, Show, Splat, View};
+pub use render::{Background, Camera, Color, Look, Projection, Render, Show, Splat, View, Water};
 pub use sensors::{Sensor, SensorField, Side};
 
 /// A point, direction or velocity: two numbers in a 2D scene, three in a 3D scene. SI units, y up, right-handed.

@@ -271,6 +271,8 @@ const KEYS: &[Synonym] = &[
     key("pointsize", &["render.splat_scale"]),
     key("particlesize", &["render.splat_scale"]),
     key("marker", &["render.splat"]),
+    key("style", &["render.look"]),
+    key("shading", &["render.look"]),
     key("sun", &["render.light"]),
     key("ground", &["render.show.floor"]),
 ];

@@ -9,6 +9,7 @@ use super::allowance::Allowance;
 use super::bodies;
 use super::boundary::{self, BoundaryParticles};
 use super::changes;
+use super::color_maps;
 use super::coloring::{self, Known};
 use super::contact::Law;
 use super::filling;
@@ -19,8 +20,8 @@ use super::free_surface;
 use super::friction;
 use super::grain_keys;
 use super::model::{
-    Addressing, DensityFrom, FluidSolver, Integrator, Render, SceneFile, SlicingAxis, StartPressure, Storage,
-    Wall,
+    Addressing, DensityFrom, FluidSolver, Integrator, Look, Render, SceneFile, SlicingAxis, StartPressure,
+    Storage, Wall,
 };
 use super::text::number;
 use super::{
@@ -384,6 +385,30 @@ fn neighbors(file: &SceneFile, frame: &Frame, report: &mut Report) -> Neighbors 
 /// Of sensors, from one frame to the next.
 const MOST_SAMPLES: f64 = 1e5;
 
+/// Which scenes can be drawn as water, and its color.
+fn water(file: &SceneFile, frame: &Frame, report: &mut Report) {
+    let help = "choose `splats` or `spheres`";
+    let is_drawn = file.render.look == Look::Water;
+    if is_drawn && frame.dimensions == Dimensions::Two {
+        report.problem(
+            "render.look",
+            "`water` is drawn in 3D, and this scene is 2D",
+            help,
+        );
+    }
+    if is_drawn && file.fluid.is_none() {
+        report.problem("render.look", "grains are no `water`", help);
+    }
+    let color = &file.render.water.color;
+    if color_maps::parse_hex(color).is_none() {
+        report.problem(
+            "render.water.color",
+            format!("\"{color}\" is not a color"),
+            "write six hexadecimal digits: \"#4fa6c4\"",
+        );
+    }
+}
+
 /// Pixels along a side.
 const SMALLEST_FRAME: u32 = 16;
 const LARGEST_FRAME: u32 = 16_384;
@@ -408,6 +433,8 @@ fn render(file: &SceneFile, frame: &Frame, report: &mut Report) -> Render {
             .notes
             .push("render.show.slices: this grid has no slices, so none are drawn".into());
     }
+    water(file, frame, report);
+    render.show.caption &= render.show.overlay;
     if render.light.is_some_and(|light| light == [0.0; 3]) {
         report.problem(
             "render.light",

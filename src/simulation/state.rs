@@ -166,6 +166,11 @@ impl State {
         found.map(|(_, bytes)| bytes.as_slice())
     }
 
+    /// Whether particles stand as a search left them, as in a run's own states, and not by id.
+    fn is_in_slot_order(&self) -> bool {
+        self.buffer("clock").is_some()
+    }
+
     /// Steps since the run began.
     pub fn steps(&self) -> u64 {
         let clock = self.buffer("clock").map(bytemuck::pod_read_unaligned::<Clock>);
@@ -393,9 +398,12 @@ impl Simulation {
         }
         // That the grid grew belongs to the frames before.
         self.reallocations = 0;
-        // Accelerations belong to the velocities that the last step predicted, so the search cannot find them again.
-        for field in saved(&self.scene) {
-            self.put(field.name, state.buffer(field.name))?;
+        // Accelerations belong to the velocities that the last step predicted, so the search cannot find them again. What
+        // files hold by id, the search has put in its order already.
+        if state.is_in_slot_order() {
+            for field in saved(&self.scene) {
+                self.put(field.name, state.buffer(field.name))?;
+            }
         }
         self.restore_step_control(state);
         self.write_step_control()?;

@@ -1,5 +1,8 @@
 //! Scenes and pictures for the tests of the renderer.
 
+// Each test program uses a part.
+#![allow(dead_code)]
+
 use glam::{DVec3, Vec3};
 use image::RgbaImage;
 use sliceflow::gpu::buffers::Usage;

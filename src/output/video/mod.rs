@@ -17,7 +17,7 @@ use super::workers::Workers;
 use super::{Sink, disk};
 use crate::error::{Error, Result};
 use crate::files;
-use crate::render::Overlay;
+use crate::render::{Overlay, over_white};
 use crate::scene::Scene;
 use crate::simulation::frame::Frame;
 
@@ -292,9 +292,10 @@ impl Sink for Video {
         let (rate, frames, index) = (self.rate, self.frames, self.taken);
         self.taken += 1;
         let queued = self.workers.submit(move || {
-            let Some(picture) = compose(&frame, &overlay)? else {
+            let Some(mut picture) = compose(&frame, &overlay)? else {
                 return Ok(());
             };
+            over_white(&mut picture);
             let mut encoder = encoder.lock().unwrap_or_else(PoisonError::into_inner);
             if encoder.is_none() {
                 *encoder = Some(start(&Start {

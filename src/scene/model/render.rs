@@ -13,12 +13,16 @@ pub struct Render {
     pub size: [u32; 2],
     /// What pictures show: the scene, the index pool or both.
     pub view: View,
-    /// What a particle looks like.
+    /// What the particles are drawn as.
+    pub look: Look,
+    /// What a particle looks like where `look` is `splats`.
     pub splat: Splat,
+    /// What water looks like where `look` is `water`.
+    pub water: Water,
     /// Drawn radius over the particle's radius.
     #[schemars(range(min = 0.01, max = 10.0))]
     pub splat_scale: f64,
-    /// Colors of the particles, and their legend.
+    /// Colors of the particles, and their legend; water has a color of its own.
     pub color: Color,
     /// Where the eye is.
     pub camera: Camera,
@@ -39,7 +43,9 @@ impl Default for Render {
         Self {
             size: [1280, 720],
             view: View::default(),
+            look: Look::default(),
             splat: Splat::default(),
+            water: Water::default(),
             splat_scale: 1.0,
             color: Color::default(),
             camera: Camera::default(),
@@ -62,6 +68,44 @@ pub enum View {
     Pool,
     /// The scene, and the pool beside it.
     Both,
+}
+
+/// What the particles are drawn as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Look {
+    /// One sphere or disc per particle, as `splat` says, in the color of its value.
+    #[default]
+    Splats,
+    /// One lit sphere per particle, whatever `splat` says, in the color of its value.
+    Spheres,
+    /// The smooth surface of a clear liquid, which reflects the sky and refracts what lies behind it: screen-space fluid
+    /// with a narrow-range filter (Truong and Yuksel 2018). Fluids in 3D have it.
+    Water,
+}
+
+/// What water looks like.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Water {
+    /// What is left of white light after `absorption_length` of water, as #rrggbb.
+    pub color: String,
+    /// Metres of water after which white light has the color `color`; a share of the domain's size when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-6, max = 1e6))]
+    pub absorption_length: Option<f64>,
+    /// Whether particles with few neighbors are white spray; otherwise they are clear drops.
+    pub spray: bool,
+}
+
+impl Default for Water {
+    fn default() -> Self {
+        Self {
+            color: "#4fa6c4".into(),
+            absorption_length: None,
+            spray: true,
+        }
+    }
 }
 
 /// What a particle looks like.
@@ -165,6 +209,8 @@ pub enum Background {
     White,
     /// Plain black.
     Black,
+    /// Nothing: pictures have alpha, and the floor is the shadows that fall on it. Videos show them over white.
+    Transparent,
 }
 
 /// What pictures show besides particles.
@@ -181,6 +227,8 @@ pub struct Show {
     pub colliders: bool,
     /// Name of the scene, time and particle count in a corner.
     pub caption: bool,
+    /// Text and legends over pictures; without them there is neither caption nor color bar.
+    pub overlay: bool,
 }
 
 impl Default for Show {
@@ -191,6 +239,7 @@ impl Default for Show {
             slices: false,
             colliders: true,
             caption: true,
+            overlay: true,
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The look of a frame that nobody tuned: backdrops, text colors, the heatmap's colors.
+//! Frames that nobody tuned: backdrops, text colors, the heatmap's colors.
 
 use crate::scene::model::Background;
 
@@ -7,10 +7,10 @@ pub type Rgb = [u8; 3];
 
 /// What stands behind the scene and how text reads on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Look {
+pub struct Backdrop {
     /// At the bottom and at the top of the picture.
-    pub backdrop_low: Rgb,
-    pub backdrop_high: Rgb,
+    pub low: Rgb,
+    pub high: Rgb,
     pub floor: Rgb,
     /// Percent of the floor's light that a shadow takes away.
     pub shadow: u8,
@@ -19,39 +19,48 @@ pub struct Look {
     pub panel: Rgb,
 }
 
-pub fn look(background: Background) -> Look {
+pub fn backdrop(background: Background) -> Backdrop {
     match background {
-        Background::Studio => Look {
-            backdrop_low: [226, 229, 233],
-            backdrop_high: [186, 194, 204],
+        Background::Studio => Backdrop {
+            low: [226, 229, 233],
+            high: [186, 194, 204],
             floor: [232, 234, 237],
             shadow: 62,
             text: [38, 42, 48],
             panel: [214, 218, 224],
         },
-        Background::Dark => Look {
-            backdrop_low: [38, 42, 49],
-            backdrop_high: [20, 23, 28],
+        Background::Dark => Backdrop {
+            low: [38, 42, 49],
+            high: [20, 23, 28],
             floor: [62, 67, 75],
             shadow: 72,
             text: [226, 229, 233],
             panel: [44, 48, 56],
         },
-        Background::White => Look {
-            backdrop_low: [255, 255, 255],
-            backdrop_high: [255, 255, 255],
+        Background::White => Backdrop {
+            low: [255, 255, 255],
+            high: [255, 255, 255],
             floor: [255, 255, 255],
             shadow: 50,
             text: [24, 26, 30],
             panel: [226, 229, 233],
         },
-        Background::Black => Look {
-            backdrop_low: [0, 0, 0],
-            backdrop_high: [0, 0, 0],
+        Background::Black => Backdrop {
+            low: [0, 0, 0],
+            high: [0, 0, 0],
             floor: [34, 36, 40],
             shadow: 85,
             text: [226, 229, 233],
             panel: [40, 42, 46],
+        },
+        // Its colors are what water reflects; behind it pictures are clear.
+        Background::Transparent => Backdrop {
+            low: [226, 229, 233],
+            high: [186, 194, 204],
+            floor: [232, 234, 237],
+            shadow: 62,
+            text: [38, 42, 48],
+            panel: [214, 218, 224],
         },
     }
 }

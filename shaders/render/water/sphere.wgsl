@@ -1,0 +1,55 @@
+// A particle of water as a sphere on screen, and where rays meet it.
+
+#import render/state
+#import render/drawn
+#import render/picture
+#import render/splat_quad
+#import <column>
+#import render/water/water
+
+struct Corner {
+    @builtin(position) clip: vec4f,
+    @location(0) point: vec3f, // on the square
+    @location(1) @interpolate(flat) sphere: vec4f, // center, radius
+}
+
+// Particles with few neighbors are drops: they belong to no surface. The column is the number of neighbors.
+fn is_drop(i: u32) -> bool {
+    return column(i) < water.few;
+}
+
+// 0 for a particle that is nearly a drop, 1 inside the water.
+fn crowd(i: u32) -> f32 {
+    return smoothstep(water.few, water.many, column(i));
+}
+
+// A corner of the square that covers a sphere.
+fn sphere_corner(index: u32, i: u32, radius: f32) -> Corner {
+    var corner: Corner;
+    let center = to_3d(unpack(position[i]));
+    let quad = splat_quad(center, radius);
+    let at = strip_corner(index) * quad.half;
+    corner.point = center + quad.across * at.x + quad.up * at.y;
+    corner.clip = picture.view_projection * vec4f(corner.point, 1.0);
+    corner.sphere = vec4f(center, radius);
+    return corner;
+}
+
+struct Hit {
+    direction: vec3f,
+    // Where the ray enters and leaves the sphere, from the square on; nowhere where `enters` is not below `leaves`.
+    enters: f32,
+    leaves: f32,
+}
+
+fn hit(corner: Corner) -> Hit {
+    var found: Hit;
+    found.direction = -to_eye(corner.point).xyz;
+    let center = corner.sphere.xyz - corner.point;
+    let along = dot(center, found.direction);
+    let beside = center - along * found.direction;
+    let half = sqrt(max(corner.sphere.w * corner.sphere.w - dot(beside, beside), 0.0));
+    found.enters = along - half;
+    found.leaves = along + half;
+    return found;
+}
