@@ -68,6 +68,11 @@ pub const COLOR_MAPS: &[ColorMap] = &[
         at: |share| blend([255, 255, 255], [0, 0, 255], share),
     },
     ColorMap {
+        name: "sand",
+        about: "wet to dry sand, linear in sRGB",
+        at: |share| blend([150, 108, 60], [240, 214, 160], share),
+    },
+    ColorMap {
         name: "rojas",
         about: "blue to red, linear in RGB (Rojas 2013)",
         at: |share| blend([0, 0, 255], [255, 0, 0], share),

@@ -91,8 +91,14 @@ pub fn substance(peer: &Peer, ignored: &mut Vec<Ignored>) -> Value {
     });
     if is_dfsph {
         fluid["solver"] = "dfsph".into();
-        if let Some(error) = peer.density_error {
-            fluid["max_density_error"] = (error / 100.0).clamp(1e-6, 0.1).into();
+        let errors = [
+            ("max_density_error", peer.density_error),
+            ("max_divergence_error", peer.divergence_error),
+        ];
+        for (key, error) in errors {
+            if let Some(percent) = error {
+                fluid[key] = (percent / 100.0).clamp(1e-6, 0.1).into();
+            }
         }
     } else {
         fluid["artificial_viscosity"] = ARTIFICIAL_VISCOSITY.into();

@@ -19,8 +19,9 @@ pub struct Peer {
     pub camera: Option<[DVec3; 2]>,
     /// Whether its solver keeps densities constant, by loops.
     pub is_incompressible: bool,
-    /// What those loops stop at, percent.
+    /// What its loops of density and of divergence stop at, percent.
     pub density_error: Option<f64>,
+    pub divergence_error: Option<f64>,
     pub materials: Vec<Material>,
     pub bodies: Vec<RigidBody>,
     pub blocks: Vec<Block>,
@@ -105,6 +106,7 @@ pub fn read(keys: &mut Keys) -> Result<Peer, Problem> {
             camera: None,
             is_incompressible: true,
             density_error: None,
+            divergence_error: None,
             materials: Vec::new(),
             bodies: Vec::new(),
             blocks: Vec::new(),
@@ -130,13 +132,14 @@ fn configuration(keys: &mut Keys) -> Result<Peer, Problem> {
     }
     // 0 is WCSPH; DFSPH is what the peer takes where nothing is said, and all others keep the fluid incompressible too.
     let method = keys.number("simulationMethod")?;
-    let error = |keys: &mut Keys| keys.number("maxError");
-    let mut density_error = None;
+    let errors = |keys: &mut Keys| Ok([keys.number("maxError")?, keys.number("maxErrorV")?]);
+    let mut found = None;
     for (key, number) in [("PCISPH", 1.0), ("PBF", 2.0), ("IISPH", 3.0), ("DFSPH", 4.0)] {
         if method.unwrap_or(4.0) == number {
-            density_error = keys.object(key, error)?.flatten();
+            found = keys.object(key, errors)?;
         }
     }
+    let [density_error, divergence_error] = found.unwrap_or_default();
     let camera = (keys.vector("cameraPosition")?, keys.vector("cameraLookat")?);
     // Older scenes have one fluid, whose density stands here.
     let density = keys.number("density0")?;
@@ -149,6 +152,7 @@ fn configuration(keys: &mut Keys) -> Result<Peer, Problem> {
         time_step,
         is_incompressible: method != Some(0.0),
         density_error,
+        divergence_error,
         camera: match camera {
             (Some(eye), target) => Some([eye, target.unwrap_or_default()]),
             (None, _) => None,

@@ -37,7 +37,7 @@ fn dam() -> Value {
     json!({
         "Configuration": {
             "particleRadius": 0.025, "gravitation": [0, -9.81, 0], "timeStepSize": 0.005, "stopAt": 2.0,
-            "cameraPosition": [0, 2, 8], "cameraLookat": [0, 1, 0], "DFSPH": { "maxError": 0.05 }
+            "cameraPosition": [0, 2, 8], "cameraLookat": [0, 1, 0], "DFSPH": { "maxError": 0.05, "maxErrorV": 0.1 }
         },
         "Materials": [ { "id": "Fluid", "density0": 900, "viscosityMethod": 1, "renderMaxValue": 4, "colorMapType": 1 } ],
         "RigidBodies": [
@@ -100,8 +100,8 @@ fn a_cubic_metre_gives_as_many_particles_as_there() {
     let fluid = scene.fluid().unwrap();
     assert_eq!((fluid.spacing, fluid.materials.len()), (0.05, 1));
     assert_eq!(
-        (fluid.solver, fluid.max_density_error),
-        (FluidSolver::Dfsph, 0.0005)
+        (fluid.solver, fluid.max_density_error, fluid.max_divergence_error),
+        (FluidSolver::Dfsph, 0.0005, 0.001)
     );
     assert!(imported.notes.iter().any(|note| note.contains("solver `dfsph`")));
 }
