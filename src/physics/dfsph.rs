@@ -34,6 +34,8 @@ const RELAXATION: f32 = 0.45;
 /// in splashes, where 0.45 and 0.5 do not.
 const DENSITY_RELAXATION: f32 = 0.3;
 const MOMENTUM: f32 = 0.7;
+/// Share of what corrected densities in the step before that a step begins with.
+const WARM_CORRECTION: f32 = 0.9;
 
 /// The row of incompressible fluids.
 pub(super) const MODEL: Model = Model {
@@ -258,6 +260,12 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             density,
             "particles go as their velocities say",
         ),
+        pass(
+            "density_push",
+            "push_apart",
+            density,
+            "corrections of the step before act first",
+        ),
         repeated(DENSITY, true, pass("control", "watch_density_loop", once, watch)),
         repeated(
             DENSITY,
@@ -336,6 +344,7 @@ fn settings(scene: &Scene, fluid: &scene::fluid::Fluid) -> Dfsph {
         relaxation: RELAXATION,
         density_relaxation: DENSITY_RELAXATION,
         momentum: MOMENTUM,
+        warm_correction: WARM_CORRECTION,
         slope_volume,
         lattice_gradient: lattice.gradient as f32,
         steepest: slope_volume * given.slope_scale / given.inverse_smoothing * slope as f32,

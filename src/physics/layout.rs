@@ -405,6 +405,7 @@ shared_struct! {
         pub relaxation: f32,
         pub density_relaxation: f32,
         pub momentum: f32,
+        pub warm_correction: f32,
         pub slope_volume: f32,
         pub lattice_gradient: f32,
         pub surface_density: f32,

@@ -274,6 +274,18 @@ pub const FIELDS: &[Field] = &[
         ..ROW
     },
     Field {
+        name: "correction",
+        unit: "Pa",
+        about: "pressure that corrected density in the last step, where `dfsph` begins to correct it again",
+        travels: Travels::Stepped,
+        saved: true,
+        has: |scene| {
+            let is_dfsph = |fluid: &Fluid| fluid.solver == FluidSolver::Dfsph;
+            scene.fluid().is_some_and(is_dfsph)
+        },
+        ..ROW
+    },
+    Field {
         name: "density_deviation",
         about: "ρ/ρ₀ − 1, which the flow carries along",
         travels: Travels::Stepped,

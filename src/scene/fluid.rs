@@ -363,9 +363,13 @@ impl Fluid {
             .chain(longest.map(|step| (step, "scene's step")));
         let h = self.step_length();
         if self.solver == FluidSolver::Dfsph {
+            // Where neighbors stand unevenly, pressure pushes a particle about as fast as fluid falls from the surface, also
+            // when all is at rest.
+            let pushed = self.courant_number * self.spacing / self.max_speed;
             return StepLimits {
                 expected,
                 constant: constant
+                    .chain([(pushed, "pressure")])
                     .min_by(|a, b| a.0.total_cmp(&b.0))
                     .expect("viscosity is one"),
                 courant_distance: self.courant_number * self.spacing,

@@ -26,6 +26,7 @@ struct Dfsph {
     relaxation: f32, // of Jacobi's sweeps in the loop of pressure
     density_relaxation: f32, // of Jacobi's iterations in the loop of density
     momentum: f32, // share of an iteration's step that the next one goes on with there
+    warm_correction: f32, // share of what corrected densities in the step before that a step begins with
     slope_volume: f32, // volume of a particle by which sums find gradients on a lattice exactly, m³ or m²
     lattice_gradient: f32, // what they would find of a gradient of 1 by the volume by which they find its density
     // Of a particle at a flat surface: what its density lacks, the sum of its gradients, 1/m, and of the missing weights, 1/m².

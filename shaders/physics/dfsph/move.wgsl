@@ -11,6 +11,8 @@
 // Before, how the particle goes, m/s; then its position. w: the pressure's remainder, Pa.
 #import fields/next_position/write
 #import fields/next_velocity/write
+#import fields/next_correction/write
+#import physics/dfsph/own
 #if boundary_particles
 #import fields/id
 #end
@@ -21,6 +23,10 @@
 #if adaptive_step
 #import physics/extremes
 #end
+
+var<storage, read> convergence: Convergence; // of the loop of density
+
+const EASY_ITERATIONS: u32 = 10u;
 
 @compute @workgroup_size(GROUP_SIZE)
 fn move_fluid(thread: Thread) {
@@ -51,6 +57,9 @@ fn move_fluid(thread: Thread) {
     watch(i, x, &moved, &v);
     next_position[i] = pack_with(moved, remainder);
     next_velocity[i] = pack_with(v, pressure);
+    // A correction that was hard to find is of no use to the next step: in deep water it would grow.
+    let is_easy = convergence.iteration <= EASY_ITERATIONS;
+    next_correction[i] = select(0.0, own[i].impulse / time_step(), is_easy);
 #if adaptive_step
     note_extremes(first(parameters.gravity), length(v), 0.0);
 #end
