@@ -5,8 +5,8 @@ mod common;
 use std::path::Path;
 
 use glam::DVec3;
+use sliceflow::output::columns_named;
 use sliceflow::plan::{Phase, Plan, Wanted};
-use sliceflow::scene::column::VECTORS;
 use sliceflow::scene::{Scene, load};
 use sliceflow::simulation::{Frame, Sample, Values};
 
@@ -21,7 +21,7 @@ fn scene(text: &str, overrides: &[&str]) -> Scene {
 /// All frames of a scene, with positions and velocities.
 fn frames(scene: &Scene) -> Vec<Frame> {
     let wanted = Wanted {
-        columns: VECTORS.to_vec(),
+        columns: columns_named(["position", "velocity"]).expect("columns"),
         sensors: true,
         ..Wanted::default()
     };
@@ -275,7 +275,7 @@ fn forces_on_walls_close_the_balance_of_momentum() {
         &["domain.walls=planes"],
         &["fluid.viscosity=0", "fluid.slip=free_slip"],
     ] {
-        let overrides = [&["time.sensor_interval=1e-9"][..], more].concat();
+        let overrides = [&["time.sensor_interval=1e-6"][..], more].concat();
         let scene = scene(SPLASH, &overrides);
         check_balance(&scene, fluid_mass(&scene), false, 2e-5);
     }
@@ -308,7 +308,7 @@ const GRAINS: &str = r#"{
     { "name": "floor", "kind": "force", "side": "y_min" },
     { "name": "top", "kind": "force", "side": "y_max" }
   ],
-  "time": { "duration": 0.02, "fps": 50, "sensor_interval": 1e-9 }
+  "time": { "duration": 0.02, "fps": 50, "sensor_interval": 1e-6 }
 }"#;
 
 #[test]

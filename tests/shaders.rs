@@ -412,7 +412,15 @@ fn every_flag_is_composed_both_on_and_off() {
         let plan = Plan::new(&common::scene(dimensions, &[]), &Limits::PROMISED, &wanted()).expect("a plan");
         for solid in [false, true] {
             let mut variant = plan.variant.clone();
-            for flag in ["shadows", "occlusion", "round_shadows", "has_floor"] {
+            let flags = [
+                "shadows",
+                "occlusion",
+                "round_shadows",
+                "has_floor",
+                "water",
+                "transparent",
+            ];
+            for flag in flags {
                 variant.flag(flag, solid);
             }
             variant

@@ -501,7 +501,7 @@ fn column_bytes(scene: &Scene, column: &Column) -> u64 {
     let each = match column.name {
         "position" => 8 * scene.dimensions.count() as u64,
         "velocity" => 4 * scene.dimensions.count() as u64,
-        name if scene.kind_of(name) == Kind::Vector => 12,
+        name if column.source == Source::Field && scene.kind_of(name) == Kind::Vector => 12,
         _ => 4,
     };
     each * u64::from(scene.capacity)

@@ -350,8 +350,11 @@ mod tests {
         let [spring] = &key("grains.spring")[..] else {
             panic!()
         };
-        assert_eq!(spring.presence, "must be given");
         assert!(spring.about[0].contains("N/m"), "{spring:?}");
+        let [spacing] = &key("fluid.spacing")[..] else {
+            panic!()
+        };
+        assert_eq!(spacing.presence, "must be given");
     }
 
     #[test]

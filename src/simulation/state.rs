@@ -96,7 +96,8 @@ impl State {
                 "overflow" => Some((Overflow::LAYOUT.size, 1)),
                 "grid" => Some((Grid::LAYOUT.size, 1)),
                 name => {
-                    let mut fields = FIELDS.iter().chain(&scene.more_fields);
+                    // The scene's own first: contacts that remember more have a field of the same name.
+                    let mut fields = scene.fields().chain(FIELDS);
                     let field = fields.find(|field| field.name == name);
                     field.map(|field| {
                         (
