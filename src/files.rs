@@ -72,7 +72,15 @@ pub fn create(path: &Path) -> io::Result<File> {
 }
 
 /// Removes a file, or a link and not what it leads to, where there is one.
+///
+/// # Errors
+///
+/// Where the name is that of a device, a pipe or a socket, besides what the system says.
 pub fn remove(path: &Path) -> io::Result<()> {
+    let kind = fs::symlink_metadata(path).map(|found| found.file_type());
+    if kind.is_ok_and(|kind| !(kind.is_file() || kind.is_symlink() || kind.is_dir())) {
+        return Err(io::Error::new(ErrorKind::InvalidInput, "it is no plain file"));
+    }
     match fs::remove_file(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
         done => done,

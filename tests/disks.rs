@@ -54,6 +54,22 @@ fn a_checkpoint_that_cannot_be_written_is_told_and_stops_nothing() {
     );
 }
 
+#[cfg(all(target_os = "linux", feature = "rerun"))]
+#[test]
+fn a_recording_that_has_no_room_is_an_error() {
+    let place = Place::new();
+    let args = "run scene.json --no-pictures --frames 6 --fps 1000 --out out --rerun full/large.rrd";
+    let Some(output) = on_small_disk(&place, "8k", args) else {
+        return;
+    };
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    assert!(
+        told.contains("large.rrd") && told.contains("free space"),
+        "{told}"
+    );
+}
+
 #[test]
 fn a_folder_that_vanishes_ends_a_run_and_is_not_made_anew() {
     let place = Place::new();

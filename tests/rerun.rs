@@ -291,27 +291,6 @@ fn warns_once_of_a_viewer(keep: bool) {
     assert_eq!(warnings.count(), 1, "{told}");
 }
 
-#[cfg(target_os = "linux")]
-#[test]
-fn a_recording_that_has_no_room_is_an_error() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).display().to_string();
-    let (out, large) = (path("out"), path("large.rrd"));
-    let run = short_run("column_2d", &out, &["--rerun", &large, "--no-pictures"]);
-    // Files of 16 KiB at most, in blocks of 512 bytes; without its signal the limit is an error like that of a full disk.
-    let script = "trap '' XFSZ; ulimit -f 32; exec \"$0\" \"$@\"";
-    let program = assert_cmd::cargo::cargo_bin!("sliceflow");
-    let failed = std::process::Command::new("sh")
-        .args(["-c", script])
-        .arg(program)
-        .args(&run)
-        .output()
-        .unwrap();
-    let told = String::from_utf8_lossy(&failed.stderr).into_owned();
-    assert_eq!(failed.status.code(), Some(1), "{told}");
-    assert!(told.contains("large.rrd") && told.contains("help:"), "{told}");
-}
-
 #[test]
 fn what_cannot_be_a_target_is_told() {
     for (args, words) in [
