@@ -96,7 +96,7 @@
 //! - a force on fluids, or what else makes their densities: one shader file in `shaders/physics/fluid/forces/` or
 //!   `shaders/physics/fluid/density/` and one row in `src/physics/formulas.rs`;
 //! - a contact law of grains that rotate, or a resistance to rolling: one shader file in
-//!   `shaders/physics/dem/contact_laws/` or `shaders/physics/dem/rolling/`, one word in `src/scene/model.rs`, its
+//!   `shaders/physics/dem/contact_laws/` or `shaders/physics/dem/rolling/`, one word in `src/scene/model/grains.rs`, its
 //!   coefficients in `src/scene/friction.rs` and its file in `src/physics/dem.rs`;
 //! - a smoothing kernel: one shader file in `shaders/physics/fluid/kernels/`, one word in `src/scene/model/fluid.rs` and
 //!   its rows in `src/physics/kernels.rs`, which the tests hold to integrals and derivatives;

@@ -174,6 +174,11 @@ fn every_grid_gives_the_same_flow() {
     }
 }
 
+fn energy(frame: &Frame) -> f64 {
+    let statistics = frame.statistics.expect("statistics");
+    statistics.kinetic_energy + statistics.potential_energy
+}
+
 /// A block of water, 32 particles high, hits the floor with all of itself at once.
 #[test]
 fn an_impact_gives_no_energy() {
@@ -190,10 +195,6 @@ fn an_impact_gives_no_energy() {
         ],
     );
     let (_, frames) = frames(&scene, 20);
-    let energy = |frame: &Frame| {
-        let statistics = frame.statistics.expect("statistics");
-        statistics.kinetic_energy + statistics.potential_energy
-    };
     let most = frames.iter().map(energy).fold(f64::MIN, f64::max);
     let fallen = energy(&frames[0]);
     assert!(most < 1.01 * fallen, "{most} J of {fallen} J");
@@ -205,11 +206,7 @@ fn an_impact_gives_no_energy() {
 #[test]
 fn deep_water_at_rest_has_the_pressure_of_the_column_above() {
     let text = include_str!("../assets/scenes/still_water.json");
-    let overrides = [
-        "fluid.solver=dfsph",
-        "fluid.spacing=0.04",
-        "time={\"duration\":5,\"fps\":1}",
-    ];
+    let overrides = ["fluid.solver=dfsph", "time={\"duration\":5,\"fps\":1}"];
     let scene =
         load::parse(text, "still_water", Path::new("."), &overrides.map(str::to_owned)).expect("a scene");
     let (simulation, frames) = frames(&scene, 5);

@@ -1,6 +1,9 @@
 // Behind everything: a gradient, and the floor with shadows, fading into it.
 
 #import render/picture
+#if has_floor
+#import render/floor
+#end
 #if shadows
 #import render/shadow
 #end
@@ -27,25 +30,19 @@ fn backdrop(pixel: vec2f) -> vec4f {
     } else {
         start += sideways;
     }
-    let t = (picture.floor_height - start.y) / direction.y;
-    if direction.y < -1e-6 && t > 0.0 {
-        let point = start + t * direction;
-        let center = 0.5 * (picture.domain_min.xyz + picture.domain_max.xyz);
-        let away = length(point.xz - center.xz);
-        let fade = 1.0 - smoothstep(picture.floor_fade_begin, picture.floor_fade_end, away);
+    let floor = floor_seen(start, direction);
+    if floor.fade > 0.0 {
         var shade = vec3f(0.0);
 #if shadows
-        if fade > 0.0 {
-            shade = vec3f(1.0 - soft_sunlight(point));
+        shade = vec3f(1.0 - soft_sunlight(floor.point));
 #if water
-            shade = 1.0 - (1.0 - shade) * light_through_water(point);
+        shade = 1.0 - (1.0 - shade) * light_through_water(floor.point);
 #end
-        }
 #end
 #if transparent
-        color.a = fade * picture.floor_color.w * dot(shade, vec3f(0.2126, 0.7152, 0.0722));
+        color.a = floor.fade * picture.floor_color.w * dot(shade, vec3f(0.2126, 0.7152, 0.0722));
 #else
-        color = mix(color, vec4f(picture.floor_color.rgb * (1.0 - picture.floor_color.w * shade), 1.0), fade);
+        color = mix(color, vec4f(picture.floor_color.rgb * (1.0 - picture.floor_color.w * shade), 1.0), floor.fade);
 #end
     }
 #end

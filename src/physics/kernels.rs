@@ -208,6 +208,28 @@ mod tests {
         }
     }
 
+    /// Worked out by hand for eight neighbors at 1 and √2 spacings.
+    #[test]
+    fn sums_on_a_square_lattice() {
+        for (kernel, gradient, density, slope) in [
+            (Kernel::WendlandC2, 0.9409, 0.1309, 0.5),
+            (Kernel::CubicSpline, 1.0122, 0.1592, 0.5),
+        ] {
+            let found = lattice(kernel, 2, 0.1, 0.1);
+            assert!((found.gradient - gradient).abs() < 1e-3, "{}", found.gradient);
+            assert!(
+                (found.surface_density - density).abs() < 1e-3,
+                "{}",
+                found.surface_density
+            );
+            assert!(
+                (found.surface_slope * 0.1 - slope).abs() < 1e-3,
+                "{}",
+                found.surface_slope * 0.1
+            );
+        }
+    }
+
     #[test]
     fn slopes_are_derivatives() {
         for kernel in KERNELS.into_iter().filter(|&k| k != Kernel::Muller) {

@@ -21,7 +21,8 @@ pub struct Backdrop {
 
 pub fn backdrop(background: Background) -> Backdrop {
     match background {
-        Background::Studio => Backdrop {
+        // Where pictures are clear, these colors are what water reflects.
+        Background::Studio | Background::Transparent => Backdrop {
             low: [226, 229, 233],
             high: [186, 194, 204],
             floor: [232, 234, 237],
@@ -52,15 +53,6 @@ pub fn backdrop(background: Background) -> Backdrop {
             shadow: 85,
             text: [226, 229, 233],
             panel: [40, 42, 46],
-        },
-        // Its colors are what water reflects; behind it pictures are clear.
-        Background::Transparent => Backdrop {
-            low: [226, 229, 233],
-            high: [186, 194, 204],
-            floor: [232, 234, 237],
-            shadow: 62,
-            text: [38, 42, 48],
-            panel: [214, 218, 224],
         },
     }
 }

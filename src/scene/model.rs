@@ -4,6 +4,8 @@
 //! file against that schema and collects every mistake, and `validate` turns the result into a [`super::Scene`].
 
 mod fluid;
+mod grains;
+mod neighbors;
 mod render;
 mod sensors;
 
@@ -15,6 +17,8 @@ use super::text::number;
 pub use fluid::{
     DensityFrom, Fluid, FluidSolver, Kernel, Material, NegativePressure, PressureForce, Slip, ViscosityForm,
 };
+pub use grains::{ContactLaw, Dashpot, Grains, RollingResistance};
+pub use neighbors::{Addressing, Cell, Neighbors, SlicingAxis, Storage};
 pub use render::{Background, Camera, Color, Look, Projection, Render, Show, Splat, View, Water};
 pub use sensors::{Sensor, SensorField, Side};
 
@@ -244,126 +248,6 @@ pub struct Sides {
     /// What the side at the upper end of z does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub z_max: Option<Wall>,
-}
-
-/// Equal grains and their contact law. By `spring_dashpot` they do not rotate; by `linear` and `hertz` they rotate, rub and
-/// resist rolling, so that they come to rest as a heap.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Grains {
-    /// Radius of every grain, metres.
-    #[schemars(range(min = 1e-9, max = 1e6))]
-    pub radius: f64,
-    /// Density of a grain's material, kg/m³ (a 2D grain is a disc one metre thick).
-    #[serde(default = "sand")]
-    #[schemars(range(min = 1e-6, max = 1e6))]
-    pub density: f64,
-    /// How grains push each other, and whether they rotate.
-    #[serde(default)]
-    pub law: ContactLaw,
-    /// Spring coefficient of `spring_dashpot` (k of Harada 2007, Eq. 9) and `linear`, in N/m.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 1e-12, max = 1e15))]
-    pub spring: Option<f64>,
-    /// Seconds that a head-on contact of two grains lasts; says what `spring` is, with `linear`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 1e-9, max = 1e3))]
-    pub contact_time: Option<f64>,
-    /// Young's modulus of the grains' material, Pa, with `hertz`. Walls are rigid.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 1.0, max = 1e13))]
-    pub young_modulus: Option<f64>,
-    /// Poisson's ratio of the grains' material, with `hertz`; 0.25 when left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 0.5))]
-    pub poisson_ratio: Option<f64>,
-    /// Coulomb's coefficient of friction between grains, with `linear` and `hertz`; 0.5 when left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 10.0))]
-    pub friction: Option<f64>,
-    /// The same between grains and walls or obstacles; that between grains when left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 10.0))]
-    pub wall_friction: Option<f64>,
-    /// Tangential over normal stiffness, with `linear`; when left out 2/7 (1/3 in 2D), with which a contact swings along and
-    /// across in the same time.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.001, max = 2.0))]
-    pub tangential_stiffness: Option<f64>,
-    /// Resistance to rolling, with `linear` and `hertz`: greatest torque over normal force and effective radius (half of a
-    /// grain's, and all of it at walls). 0 when left out. It stands for grains that are not round: 0.1 to 0.5 for sand.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 10.0))]
-    pub rolling_friction: Option<f64>,
-    /// How rolling is resisted, where `rolling_friction` is more than 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub rolling_resistance: Option<RollingResistance>,
-    /// Dashpot coefficient η of Harada 2007, Eq. 10, in N·s/m, with `spring_dashpot`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 1e12))]
-    pub damping: Option<f64>,
-    /// Speed after a head-on collision over speed before it; sets the dashpots for two grains and for a wall so that both
-    /// give it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.001, max = 1.0))]
-    pub restitution: Option<f64>,
-    /// Which part of the relative velocity the dashpot of `spring_dashpot` resists.
-    #[serde(default)]
-    pub dashpot: Dashpot,
-    /// Force against the tangential relative velocity at a contact of `spring_dashpot` (Green 2012), N·s/m.
-    #[serde(default)]
-    #[schemars(range(min = 0.0, max = 1e12))]
-    pub shear: f64,
-    /// Pull towards a touching grain of `spring_dashpot`, times the distance of the centers (Green 2012), N/m.
-    #[serde(default)]
-    #[schemars(range(min = 0.0, max = 1e12))]
-    pub attraction: f64,
-    /// Rate at which every grain's velocity fades (Green 2012's global damping), 1/s.
-    #[serde(default)]
-    #[schemars(range(min = 0.0, max = 1e6))]
-    pub global_damping: f64,
-}
-
-fn sand() -> f64 {
-    2500.0
-}
-
-/// How grains push each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum ContactLaw {
-    /// Spring and dashpot (Harada 2007, Eq. 9 and 10) with shear and attraction (Green 2012). Give the dashpot as `damping`
-    /// or as `restitution`, not both. Grains do not rotate and nothing keeps them from sliding, so heaps flow apart.
-    #[default]
-    SpringDashpot,
-    /// Linear springs and dashpots across and along the contact, the latter under Coulomb's limit (Cundall and Strack 1979).
-    /// Give `spring` or `contact_time`, and `restitution`. Grains rotate.
-    Linear,
-    /// Elastic spheres (Hertz 1882, Mindlin 1949) under Coulomb's limit, from `young_modulus`, `poisson_ratio` and
-    /// `restitution`, which holds at all speeds (Tsuji 1992). Grains rotate. 3D only.
-    Hertz,
-}
-
-/// How rolling is resisted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum RollingResistance {
-    /// A spring that gives way at the greatest torque, with a dashpot as long as it holds (type C of Ai et al. 2011).
-    #[default]
-    Spring,
-    /// The greatest torque, as long as there is rolling (type A of Ai et al. 2011).
-    ConstantTorque,
-}
-
-/// Which part of the relative velocity the dashpot resists.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Dashpot {
-    /// All of it, as Harada 2007, Eq. 10 is written.
-    #[default]
-    Full,
-    /// Its normal part only, as in linear spring-dashpot models of the literature.
-    Normal,
 }
 
 /// Grains or fluid that are there from the start.
@@ -816,130 +700,6 @@ pub struct Move {
     /// Seconds that the move takes.
     #[schemars(range(min = 1e-9, max = 1e9))]
     pub during: f64,
-}
-
-/// How neighbors are found: which voxel a point falls in, and how a voxel keeps its particles.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Neighbors {
-    /// Which voxels there are, and how one is found in memory.
-    pub addressing: Addressing,
-    /// How a voxel keeps its particles.
-    pub storage: Storage,
-    /// The axis across which slices are cut; y when left out, as in Harada 2007. With `auto` that with the fewest
-    /// voxels, chosen again when the grid has to grow.
-    pub slicing_axis: SlicingAxis,
-    /// Whether clusters of particles with empty space between them get slices of their own (`sliced` only).
-    pub regions: bool,
-    /// Width of a voxel.
-    pub cell: Cell,
-    /// How many particles' indices a voxel of a `pool` can hold.
-    #[schemars(range(min = 1, max = 64))]
-    pub slots: u32,
-    /// With more than 0, each particle keeps a list of its neighbors, which reaches farther than the search radius by
-    /// this share of it and serves until a particle has moved by half of that. When left out, 0.1, and 0 with a `pool`,
-    /// whose slots are meant for voxels as wide as the radius.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub skin: Option<f64>,
-    /// Room in the grid's buffers, as a multiple of what the particles need when the buffers are made.
-    #[schemars(range(min = 1.0, max = 100.0))]
-    pub margin: f64,
-    /// How far beyond the domain's open sides the search follows particles, metres; eight times the domain's longest
-    /// side when left out. Particles beyond find no neighbors; they are counted.
-    #[schemars(range(min = 0.0, max = 1e9))]
-    pub quarantine_distance: Option<f64>,
-    /// Whether two runs on one device give the same bytes. Without it, `counting` and `pool` take particles in the
-    /// order in which the device's threads arrive, which saves work; the other storages give the same bytes anyway.
-    pub deterministic: bool,
-}
-
-impl Default for Neighbors {
-    fn default() -> Self {
-        Self {
-            addressing: Addressing::default(),
-            storage: Storage::default(),
-            slicing_axis: SlicingAxis::default(),
-            regions: false,
-            cell: Cell::default(),
-            slots: 4,
-            skin: None,
-            margin: 1.5,
-            quarantine_distance: None,
-            deterministic: true,
-        }
-    }
-}
-
-/// Which voxels there are, and how one is found in memory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Addressing {
-    /// The whole domain (Green 2012).
-    Uniform,
-    /// The bounding box of each slice (Harada 2007); as fast as `uniform` in a full box, faster in others.
-    #[default]
-    Sliced,
-    /// The extent of each row in each slice.
-    Rows,
-    /// One bit per voxel in the extent of each row; memory for those voxels that hold particles.
-    Bitmap,
-    /// A fixed table for an unbounded space (Teschner 2003); collisions cost time.
-    Hash,
-    /// The whole domain along a Z-order curve (Green 2012, Rojas 2013).
-    Morton,
-}
-
-/// How wide voxels are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Cell {
-    /// As the search's radius: a grain's diameter (the loose grid of Green 2012); 27 voxels around a particle in 3D.
-    #[default]
-    Radius,
-    /// Half of it: 125 voxels around a particle in 3D, with fewer candidates in them.
-    Half,
-}
-
-/// The axis across which slices are cut.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SlicingAxis {
-    /// Slices stand side by side along x.
-    X,
-    /// Slices lie on each other.
-    #[default]
-    Y,
-    /// Slices stand behind each other along z.
-    Z,
-    /// The one that needs the fewest voxels.
-    Auto,
-}
-
-impl SlicingAxis {
-    /// `None` for `auto`.
-    pub fn fixed(self) -> Option<Axis> {
-        match self {
-            Self::X => Some(Axis::X),
-            Self::Y => Some(Axis::Y),
-            Self::Z => Some(Axis::Z),
-            Self::Auto => None,
-        }
-    }
-}
-
-/// How a voxel keeps its particles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Storage {
-    /// Count, prefix sum, scatter: particles stand in voxel order (Green 2012).
-    #[default]
-    Counting,
-    /// A fixed number of indices per voxel (Harada 2007's index pool).
-    Pool,
-    /// A radix sort by voxel: particles stand in voxel order (Green 2012).
-    Radix,
-    /// A bitonic merge sort by voxel: particles stand in voxel order (Rojas 2013).
-    Bitonic,
 }
 
 /// An axis of the scene.

@@ -2,8 +2,7 @@
 #import common/vector
 
 struct Own {
-    // ρ/ρ₀ − 1, over what a sum finds of a gradient of 1 on a lattice: so many times the volume's share that is missing.
-    deviation: f32,
+    deviation: f32, // (ρ/ρ₀ − 1) / `lattice_gradient`: what `compression_rate` has added up to
     source: f32, // rate of compression that pressure has to undo, 1/s; before, the share of density that a surface lacks
     closing: f32, // rate at which a gap of the fluid may close, 1/s
     impulse: f32, // the pressure's remainder, then that of the loop of density so far, Pa·s

@@ -3,8 +3,8 @@
 #import common/thread
 #import render/picture
 #import render/backdrop
+#import render/scene_pixel
 
-var scene_color: texture_2d<f32>;
 var<storage, read_write> behind: array<vec2u>;
 
 @compute @workgroup_size(GROUP_SIZE)
@@ -15,14 +15,7 @@ fn paint_behind(thread: Thread) {
         return;
     }
     let pixel = vec2u(item % size.x, item / size.x);
-    let n = picture.antialias;
-    var sum = vec4f(0.0);
-    for (var y = 0u; y < n; y += 1u) {
-        for (var x = 0u; x < n; x += 1u) {
-            sum += textureLoad(scene_color, pixel * n + vec2u(x, y), 0);
-        }
-    }
-    sum /= f32(n * n);
+    var sum = scene_pixel(pixel);
     if sum.a < 0.999 {
         sum += (1.0 - sum.a) * backdrop(vec2f(pixel) + 0.5);
     }

@@ -1,6 +1,9 @@
 // What a ray sees that water reflects: a sky that is bright around the key light, and the floor.
 
 #import render/picture
+#if has_floor
+#import render/floor
+#end
 
 fn sky(direction: vec3f) -> vec3f {
     let up = smoothstep(0.0, 0.75, direction.y);
@@ -14,14 +17,7 @@ fn sky(direction: vec3f) -> vec3f {
 fn surroundings(start: vec3f, direction: vec3f) -> vec3f {
     var color = sky(vec3f(direction.x, abs(direction.y), direction.z));
 #if has_floor
-    let t = (picture.floor_height - start.y) / direction.y;
-    if direction.y < -1e-6 && t > 0.0 {
-        let point = start + t * direction;
-        let center = 0.5 * (picture.domain_min.xyz + picture.domain_max.xyz);
-        let away = length(point.xz - center.xz);
-        let fade = 1.0 - smoothstep(picture.floor_fade_begin, picture.floor_fade_end, away);
-        color = mix(color, picture.floor_color.rgb, fade);
-    }
+    color = mix(color, picture.floor_color.rgb, floor_seen(start, direction).fade);
 #end
     return color;
 }
