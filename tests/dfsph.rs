@@ -203,6 +203,33 @@ fn an_impact_gives_no_energy() {
     assert!(mean < 0.1, "{mean}");
 }
 
+/// A drop falls into a narrow column of water that is fifty particles deep, which it sets in motion as a whole.
+#[test]
+fn a_splash_in_deep_water_gives_no_energy() {
+    let scene = dfsph(
+        2,
+        &[
+            "colliders=[]",
+            "domain={\"min\":[0,0],\"max\":[0.3,2]}",
+            "fluid.spacing=0.02",
+            "fluid.max_speed=5",
+            "fluid.viscosity=0",
+            "bodies=[{\"shape\":{\"kind\":\"box\",\"min\":[0,0],\"max\":[0.3,1]}},{\"shape\":{\"kind\":\"sphere\",\"center\":[0.12,1.2],\"radius\":0.09}}]",
+            "gravity=[0,-9.81]",
+            "time={\"duration\":0.8,\"fps\":20}",
+        ],
+    );
+    let (_, frames) = frames(&scene, 16);
+    let energies: Vec<f64> = frames.iter().map(energy).collect();
+    let most = energies.iter().copied().fold(f64::MIN, f64::max);
+    assert!(most < 1.005 * energies[0], "{energies:?} J");
+    // Densities need no loop that goes through the whole column, again and again.
+    let count = |frame: &Frame| convergence(frame).density_iterations;
+    let steps: u32 = frames.iter().map(|frame| convergence(frame).steps).sum();
+    let iterations: u32 = frames.iter().map(count).sum();
+    assert!(iterations < 2 * steps, "{iterations} in {steps} steps");
+}
+
 #[test]
 fn deep_water_at_rest_has_the_pressure_of_the_column_above() {
     let text = include_str!("../assets/scenes/still_water.json");

@@ -87,6 +87,11 @@ fn find_density(thread: Thread) {
 #if boundary_particles
     walls[i] = Walls(pack_with(pull, approach), pack(lift));
 #end
+#if boundary_particles
+    let uneven = length(slopes + (MIRRORED - 1.0) * pull);
+#else
+    let uneven = length(slopes);
+#end
     let lacking = exposed * dfsph.surface_density * min(length(slopes) / dfsph.surface_slope, 1.0);
     own[i] = Own(
         deviation / dfsph.lattice_gradient,
@@ -94,7 +99,7 @@ fn find_density(thread: Thread) {
         0.0,
         0.0,
         0.0,
-        length(slopes),
+        uneven,
         response(diagonal),
         response(dot(slopes, slopes) + squares),
 #if drag

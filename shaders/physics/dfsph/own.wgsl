@@ -7,7 +7,7 @@ struct Own {
     closing: f32, // rate at which a gap of the fluid may close, 1/s
     impulse: f32, // the pressure's remainder, then that of the loop of density so far, Pa·s
     previous: f32, // impulse of the sweep or iteration before, Pa·s
-    most: f32, // impulse of pressure that is allowed, Pa·s; before, the length of the sum of gradients, 1/m
+    most: f32, // impulse of pressure that is allowed, Pa·s; before, the sum of gradients, walls mirrored, 1/m
     response: f32, // impulse over the rate at which it thins the fluid out by itself, in the compact equation, Pa·s²
     exact_response: f32, // the same of the exact equation
 #if drag
