@@ -102,8 +102,7 @@ pub fn fill(
     Filled { particles, bodies }
 }
 
-/// What a fluid's particles have besides: their pressure at the start, which becomes a density when the fluid's speed
-/// of sound is known, and their material.
+/// What a fluid's particles have besides: their pressure at the start and their material.
 #[allow(clippy::too_many_arguments)]
 fn fill_fluid(
     path: &str,
@@ -130,9 +129,9 @@ fn fill_fluid(
         file.gravity.0[1],
         file.gravity.0.get(2).copied().unwrap_or(0.0),
     );
-    let pressures = fluid::start_pressures(body, positions, density, gravity, frame, fluid.spacing);
+    let pressures = fluid::start_pressures(body, fluid, positions, density, gravity, frame);
     particles
-        .density_deviation
+        .start_pressure
         .extend(pressures.iter().map(|&p| p as f32));
     if !fluid.materials.is_empty() {
         particles.material.extend(positions.iter().map(|_| material));

@@ -279,10 +279,7 @@ pub const FIELDS: &[Field] = &[
         about: "pressure that corrected density in the last step, where `dfsph` begins to correct it again",
         travels: Travels::Stepped,
         saved: true,
-        has: |scene| {
-            let is_dfsph = |fluid: &Fluid| fluid.solver == FluidSolver::Dfsph;
-            scene.fluid().is_some_and(is_dfsph)
-        },
+        has: is_dfsph,
         ..ROW
     },
     Field {
@@ -293,6 +290,17 @@ pub const FIELDS: &[Field] = &[
         start: Some(|new| bytemuck::cast_slice(&new.free.density_deviation).to_vec()),
         beside: Some("velocity"),
         ends_in: Some(("fluid_state", 0)),
+        ..ROW
+    },
+    Field {
+        name: "solved_pressure",
+        unit: "Pa",
+        about: "pressure that the last step found, where the next one begins to look for it",
+        travels: Travels::Stepped,
+        has: is_dfsph,
+        start: Some(|new| bytemuck::cast_slice(&new.free.start_pressure).to_vec()),
+        beside: Some("velocity"),
+        ends_in: Some(("fluid_state", 1)),
         ..ROW
     },
     Field {
@@ -348,6 +356,12 @@ fn rolls_by_spring(scene: &Scene) -> bool {
     scene
         .friction()
         .is_some_and(|friction| friction.rolling == Some(RollingResistance::Spring))
+}
+
+fn is_dfsph(scene: &Scene) -> bool {
+    scene
+        .fluid()
+        .is_some_and(|fluid| fluid.solver == FluidSolver::Dfsph)
 }
 
 /// The scene's fluid at the start and after each change, unless it is incompressible.

@@ -526,11 +526,11 @@ pub fn flow_at(flow: &Flow, dimensions: Dimensions, at: DVec3) -> (DVec3, f64) {
 /// Pressures of a body's particles at the start, Pa, from those of its flow and of the fluid that stands above.
 pub fn start_pressures(
     body: &model::Body,
+    fluid: &model::Fluid,
     positions: &[DVec3],
     density: f64,
     gravity: DVec3,
     frame: &Frame,
-    spacing: f64,
 ) -> Vec<f64> {
     let mut pressures = vec![0.0; positions.len()];
     if let Some(flow) = &body.flow {
@@ -538,13 +538,24 @@ pub fn start_pressures(
             *pressure += density * flow_at(flow, frame.dimensions, *position + frame.origin).1;
         }
     }
-    if body.pressure == StartPressure::Hydrostatic {
-        let (top, _) = extent(positions, gravity, spacing);
+    let (top, bottom) = extent(positions, gravity, fluid.spacing);
+    // An incompressible fluid finds its pressures from anywhere, but nearby it finds them sooner.
+    let stands = || bottom < lowest_potential(frame, gravity) + gravity.length() * fluid.spacing / 2.0;
+    if body.pressure == StartPressure::Hydrostatic || fluid.solver == FluidSolver::Dfsph && stands() {
         for (pressure, position) in pressures.iter_mut().zip(positions) {
             *pressure += density * (top + position.dot(gravity));
         }
     }
     pressures
+}
+
+/// Of gravity at the lowest corner of the domain, m²/s².
+fn lowest_potential(frame: &Frame, gravity: DVec3) -> f64 {
+    let lowest = |axis: usize| match gravity[axis] > 0.0 {
+        true => frame.max[axis],
+        false => frame.min[axis],
+    };
+    -gravity.dot(DVec3::from([0, 1, 2].map(lowest)))
 }
 
 /// The highest and the lowest potential −g·x of a body, half a spacing beyond its particles, m²/s².

@@ -297,6 +297,8 @@ pub struct Particles {
     pub velocity: Vec<Vec3>,
     /// Of a fluid: (ρ/ρ₀) − 1 at the start. Empty for grains.
     pub density_deviation: Vec<f32>,
+    /// Of a fluid: pressure at the start, Pa. Empty for grains.
+    pub start_pressure: Vec<f32>,
     /// Of several fluids: index into their materials. Empty for one.
     pub material: Vec<u32>,
 }
@@ -314,6 +316,7 @@ impl Particles {
         self.position.append(&mut other.position);
         self.velocity.append(&mut other.velocity);
         self.density_deviation.append(&mut other.density_deviation);
+        self.start_pressure.append(&mut other.start_pressure);
         self.material.append(&mut other.material);
     }
 }
@@ -400,7 +403,7 @@ impl From<&model::Neighbors> for Neighbors {
             storage: given.storage,
             slicing_axis: given.slicing_axis,
             regions: given.regions,
-            cell: given.cell,
+            cell: given.cell.unwrap_or_default(),
             slots: given.slots,
             skin: given.skin.unwrap_or(match given.storage {
                 Storage::Pool => 0.0,

@@ -388,14 +388,12 @@ impl<'a> Unroll<'a> {
             Some(fluid) => (true, !fluid.materials.is_empty()),
             None => (false, false),
         };
+        let of_fluid = if fluid { points.len() } else { 0 };
         Particles {
             position: points.iter().map(|point| point.as_vec3()).collect(),
             velocity: vec![velocity.as_vec3(); points.len()],
-            density_deviation: if fluid {
-                vec![0.0; points.len()]
-            } else {
-                Vec::new()
-            },
+            density_deviation: vec![0.0; of_fluid],
+            start_pressure: vec![0.0; of_fluid],
             material: if several {
                 vec![material; points.len()]
             } else {

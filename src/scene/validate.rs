@@ -237,7 +237,7 @@ fn fastest_wall(file: &SceneFile, colliders: &[super::Collider]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// From pressures at the start, which `particles.density_deviation` holds so far, to densities. `bodies` says which particles
+/// From pressures at the start to densities, by the fluid's speed of sound. `bodies` says which particles
 /// belong to each body.
 fn start(
     file: &SceneFile,
@@ -252,15 +252,21 @@ fn start(
             fluid.settle(&mut particles.position[range.clone()], gravity);
         }
     }
-    for (i, deviation) in particles.density_deviation.iter_mut().enumerate() {
+    let deviation = |(i, &pressure): (usize, &f32)| {
         let material = particles.material.get(i).copied().unwrap_or(0) as usize;
         let density = fluid
             .materials
             .get(material)
             .unwrap_or(&fluid.materials[0])
             .density;
-        *deviation = fluid.deviation_at(density, f64::from(*deviation)) as f32;
-    }
+        fluid.deviation_at(density, f64::from(pressure)) as f32
+    };
+    particles.density_deviation = particles
+        .start_pressure
+        .iter()
+        .enumerate()
+        .map(deviation)
+        .collect();
     // An incompressible fluid finds its pressures in its first steps, whatever it begins with.
     if fluid.density_from == DensityFrom::Summation && fluid.solver != FluidSolver::Dfsph {
         for (i, body) in file.bodies.iter().enumerate() {
@@ -342,11 +348,9 @@ fn neighbors(file: &SceneFile, frame: &Frame, report: &mut Report) -> Neighbors 
     }
     let mut neighbors = Neighbors::from(given);
     let periodic = frame.sides.iter().flatten().any(|&side| side == Wall::Periodic);
-    let every_step = file
-        .fluid
-        .as_ref()
-        .is_some_and(|fluid| fluid.solver == FluidSolver::Dfsph);
+    let every_step = file.lists_every_step();
     neighbors.lists_every_step = every_step;
+    neighbors.cell = file.cell();
     if every_step {
         neighbors.skin = 0.0;
     }

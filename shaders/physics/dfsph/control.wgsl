@@ -53,10 +53,10 @@ struct Found {
     iterations: u32, // that the loop has made then
 }
 
-// Pressures begin where they were, and with two iterations in each step water at rest comes nearer to its pressure than one
+// Pressures begin where they were, and with an iteration in each step water at rest comes nearer to its pressure than one
 // step's error asks for.
 fn least_iterations(which: u32) -> u32 {
-    return select(0u, 2u, which == DIVERGENCE_LOOP);
+    return u32(which == DIVERGENCE_LOOP);
 }
 
 // Looks at the errors that a first pass found, and ends the loop when they are small. One iteration is made in any case; where
