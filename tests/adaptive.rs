@@ -209,7 +209,7 @@ fn limited(scene: &Scene) -> (&'static str, f64) {
 fn the_limiting_term_is_named_and_steps_follow_it() {
     let moving = |scene: &mut Scene, speed: f32| scene.particles.velocity[0] = Vec3::X * speed;
     let drop = |overrides: &[&str], speed: f32| {
-        let mut scene = falling(true, &[overrides, &["time.fps=20", "time.duration=0.2"]].concat());
+        let mut scene = falling(true, &[overrides, &["time.fps=20", "time.duration=0.1"]].concat());
         moving(&mut scene, speed);
         limited(&scene)
     };
@@ -234,17 +234,17 @@ fn the_limiting_term_is_named_and_steps_follow_it() {
     assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
 
     let grain = |speed: f32| {
-        let mut scene = falling(false, &["time.fps=20", "time.duration=0.2"]);
+        let mut scene = falling(false, &["time.fps=20", "time.duration=0.1"]);
         moving(&mut scene, speed);
         limited(&scene)
     };
     assert_eq!(grain(0.0).0, "contact duration");
     assert_eq!(grain(100.0).0, "motion");
     // Frames shorter than a step.
-    let frame = falling(true, &["time.fps=2000", "time.duration=0.002"]);
+    let frame = falling(true, &["time.fps=2000", "time.duration=0.001"]);
     assert_eq!(limited(&frame).0, "frame end");
     // Fixed steps tell theirs.
-    let fixed = falling(true, &["time.adaptive=false", "time.fps=20", "time.duration=0.2"]);
+    let fixed = falling(true, &["time.adaptive=false", "time.fps=20", "time.duration=0.1"]);
     assert_eq!(limited(&fixed), ("speed of sound", 1.0));
 }
 

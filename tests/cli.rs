@@ -656,6 +656,10 @@ fn every_scene_that_ships_runs_without_a_warning() {
         let name = path.file_stem().expect("a name").to_str().expect("text");
         assert!(listed.contains(name), "{name} is not listed:\n{listed}");
         let out = temporary.path().join(name).display().to_string();
+        // The second frame is near the first one: a few steps are as many as a warning needs.
+        let text = std::fs::read_to_string(&path).expect("a scene");
+        let scene: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        let fps = 8.0 * scene["time"]["fps"].as_f64().expect("a rate");
         let arguments = [
             "run",
             name,
@@ -663,6 +667,8 @@ fn every_scene_that_ships_runs_without_a_warning() {
             &out,
             "--frames",
             "2",
+            "--fps",
+            &fps.to_string(),
             "--size",
             "160x90",
             "--progress",

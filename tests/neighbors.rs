@@ -258,31 +258,33 @@ fn lattice_with_neighbors_at_exactly_the_radius_and_on_voxel_borders() {
         let (min, _, reach) = corners(dimensions);
         let grid = sliceflow::neighbors::first_grid(&common::scene(dimensions, &[]));
         let depth = if dimensions == 2 { 1 } else { 6 };
-        for step in [reach, grid.side] {
+        // Multiples of the radius lie around the origin, where some pairs are exactly as far apart in f32.
+        for (first, step) in [
+            (Vec3::new(-4.0, -4.0, -(depth / 2) as f32) * reach, reach),
+            (min, grid.side),
+        ] {
             let mut points = Vec::new();
             for x in 0..8 {
                 for y in 0..8 {
                     for z in 0..depth {
-                        points.push(min + Vec3::new(x as f32, y as f32, z as f32) * step);
+                        points.push(first + Vec3::new(x as f32, y as f32, z as f32) * step);
                     }
                 }
             }
             check("lattice", dimensions, &points);
-            // One unit in the last place to either side of each voxel face.
-            let nudged = |up: bool| {
+            // Also one unit in the last place to either side of each voxel face.
+            let nudged = |nudge: fn(f32) -> f32| {
+                let flat = dimensions == 2;
                 points.iter().map(move |p| {
-                    p.to_array()
-                        .map(|x| if up { x.next_up() } else { x.next_down() })
-                        .into()
+                    let z = if flat { p.z } else { nudge(p.z) };
+                    Vec3::new(nudge(p.x), nudge(p.y), z)
                 })
             };
-            let inside: Vec<Vec3> = nudged(true).collect();
-            check("nudged up", dimensions, &inside);
-            let both: Vec<Vec3> = nudged(false)
+            let all: Vec<Vec3> = nudged(f32::next_up)
                 .chain(points.iter().copied())
-                .filter(|p: &Vec3| dimensions == 3 || p.z == 0.0)
+                .chain(nudged(f32::next_down))
                 .collect();
-            check("nudged down", dimensions, &both);
+            check("lattice and its neighbors in f32", dimensions, &all);
         }
     }
 }

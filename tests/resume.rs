@@ -32,8 +32,8 @@ fn assert_same(one: &[Frame], two: &[Frame], what: &str) {
     }
 }
 
-/// Runs through and in two halves with the state between them; gives that state.
-fn halves(scene: &Scene, what: &str) -> State {
+/// Runs through and in two halves with the state between them; gives that state and the frames.
+fn halves(scene: &Scene, what: &str) -> (State, Vec<Frame>) {
     let (middle, last) = (3, 6);
     let mut through = common::simulate(scene, &wanted());
     let whole = frames(&mut through, last);
@@ -51,7 +51,7 @@ fn halves(scene: &Scene, what: &str) -> State {
     assert!(shown.is_none(), "the ring has room for it");
     let rest = frames(&mut second, last);
     assert_same(&rest, &whole[middle as usize..], what);
-    state
+    (state, whole)
 }
 
 /// Two emitters' worth of grains, moving obstacles and changing gravity happen before and behind the middle.
@@ -91,7 +91,7 @@ fn a_state_carries_everything_that_the_next_step_needs() {
                 &emitters,
             ];
             let scene = common::scene(dimensions, &overrides);
-            let state = halves(&scene, &format!("{dimensions}D, {overrides:?}"));
+            let (state, _) = halves(&scene, &format!("{dimensions}D, {overrides:?}"));
             assert_eq!(
                 state.buffer("acceleration").is_some(),
                 integrator.contains("verlet")
@@ -131,7 +131,7 @@ fn adaptive_steps_go_on() {
         halves(&common::scene(2, &[adaptive, events, integrator]), integrator);
         let thrown = r#"bodies=[{"shape":{"kind":"box","min":[0,0.05],"max":[0.4,0.4]},"velocity":[3,-5]}]"#;
         let scene = common::fluid(2, &[adaptive, thrown, integrator, "time.fps=60"]);
-        let state = halves(&scene, &format!("fluid, {integrator}"));
+        let (state, _) = halves(&scene, &format!("fluid, {integrator}"));
         assert!(state.buffer("step_control").is_some());
     }
     halves(&common::fluid(2, &["fluid.solver=dfsph", "time.fps=60"]), "dfsph");
@@ -144,10 +144,9 @@ fn a_grid_that_grows_goes_on() {
         let (position, velocity) = common::burst(3, 150);
         let grid = format!("neighbors.addressing={addressing}");
         let scene = common::open_scene(3, &[&grid], position, velocity);
-        let whole = frames(&mut common::simulate(&scene, &wanted()), 6);
+        let (_, whole) = halves(&scene, &format!("{addressing}, growing"));
         let reallocations = |frames: &[Frame]| frames.iter().map(|frame| frame.reallocations).sum::<u32>();
         assert!(reallocations(&whole[..=3]) > 0, "{addressing}");
         assert!(reallocations(&whole[4..]) > 0, "{addressing}");
-        halves(&scene, &format!("{addressing}, growing"));
     }
 }

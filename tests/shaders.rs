@@ -2,13 +2,12 @@
 
 mod common;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeSet, HashMap};
 use std::sync::LazyLock;
 
 use sliceflow::gpu::buffers::Usage;
 use sliceflow::gpu::compose::{self, compose, known_flags};
 use sliceflow::gpu::device::Limits;
-use sliceflow::gpu::reflect::StructLayout;
 use sliceflow::gpu::{Shader, Variant};
 use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
 use sliceflow::physics::layout::SHARED;
@@ -267,71 +266,81 @@ fn plans() -> Vec<Plan> {
 /// Plans and the shaders of their passes. Most plans share most of them.
 struct Composed {
     plans: Vec<Plan>,
-    /// By composed text and entry point.
-    shaders: BTreeMap<(String, String), Result<Reflected, String>>,
+    /// One for each composed text, which may have several entry points.
+    shaders: Vec<Result<Shader, String>>,
+    /// Of each plan, the places of its passes' shaders.
+    places: Vec<Vec<usize>>,
     /// Flags that they depend on, and whether they were set.
     flags: BTreeSet<(String, bool)>,
 }
 
-/// What the tests look at of a pass.
-struct Reflected {
-    resources: Vec<String>,
-    structs: Vec<StructLayout>,
-}
-
 static COMPOSED: LazyLock<Composed> = LazyLock::new(|| {
-    let plans = plans();
-    let mut shaders = BTreeMap::new();
-    let mut flags = BTreeSet::new();
-    for (plan, row) in plans
-        .iter()
-        .flat_map(|plan| plan.passes.iter().map(move |row| (plan, row)))
-    {
-        let composed = compose(&row.pass.shader, &plan.variant_of(row.phase));
-        let composed = composed.unwrap_or_else(|error| panic!("{error}"));
-        flags.extend(composed.flags.iter().cloned());
-        shaders
-            .entry((composed.text.clone(), row.pass.entry.clone()))
-            .or_insert_with(|| {
-                let reflect = || {
-                    let shader = Shader::from_composed(&composed)?;
-                    let resources = shader.resources(&row.pass.entry)?;
-                    Ok::<_, sliceflow::error::Error>(Reflected {
-                        resources: resources.into_iter().map(|resource| resource.name).collect(),
-                        structs: shader.structs(),
-                    })
-                };
-                reflect().map_err(|error| error.to_string())
-            });
+    let mut composed = Composed {
+        plans: plans(),
+        shaders: Vec::new(),
+        places: Vec::new(),
+        flags: BTreeSet::new(),
+    };
+    let mut by_text = HashMap::new();
+    for plan in &composed.plans {
+        // Passes of one file and phase are composed alike.
+        let mut by_file = HashMap::new();
+        let places = plan.passes.iter().map(|row| {
+            let file = (row.pass.shader.as_str(), row.phase as u8);
+            *by_file.entry(file).or_insert_with(|| {
+                let found = compose(&row.pass.shader, &plan.variant_of(row.phase));
+                let found = found.unwrap_or_else(|error| panic!("{error}"));
+                composed.flags.extend(found.flags.iter().cloned());
+                *by_text.entry(found.text.clone()).or_insert_with(|| {
+                    let shader = Shader::from_composed(&found);
+                    composed.shaders.push(shader.map_err(|error| error.to_string()));
+                    composed.shaders.len() - 1
+                })
+            })
+        });
+        composed.places.push(places.collect());
     }
-    Composed {
-        plans,
-        shaders,
-        flags,
-    }
+    composed
 });
 
+/// A pass and the names of its shader's resources.
+type Bound<'a> = (&'a PassRow, Result<Vec<String>, String>);
+
 impl Composed {
-    fn shader(&self, plan: &Plan, row: &PassRow) -> &Result<Reflected, String> {
-        let composed = compose(&row.pass.shader, &plan.variant_of(row.phase)).expect("composed before");
-        &self.shaders[&(composed.text, row.pass.entry.clone())]
+    /// Each plan with its passes.
+    fn passes(&self) -> impl Iterator<Item = (&Plan, Vec<Bound<'_>>)> {
+        self.plans.iter().zip(&self.places).map(|(plan, places)| {
+            let rows = plan.passes.iter().zip(places).map(|(row, &place)| {
+                let resources = self.shaders[place]
+                    .as_ref()
+                    .map_err(Clone::clone)
+                    .and_then(|shader| {
+                        let resources = shader
+                            .resources(&row.pass.entry)
+                            .map_err(|error| error.to_string())?;
+                        Ok(resources.into_iter().map(|resource| resource.name).collect())
+                    });
+                (row, resources)
+            });
+            (plan, rows.collect())
+        })
     }
 }
 
 #[test]
 fn every_pass_of_every_variant_is_valid_and_finds_its_buffers() {
     let mut failures = Vec::new();
-    for plan in &COMPOSED.plans {
-        for row in &plan.passes {
-            match COMPOSED.shader(plan, row) {
-                Ok(shader) => {
-                    for name in &shader.resources {
+    for (plan, rows) in COMPOSED.passes() {
+        for (row, resources) in rows {
+            match resources {
+                Ok(names) => {
+                    for name in &names {
                         if !plan.buffers.iter().any(|b| b.name == *name) {
                             failures.push(format!("{}: no buffer `{name}`", row.pass.entry));
                         }
                     }
                 }
-                Err(error) => failures.push(error.clone()),
+                Err(error) => failures.push(error),
             }
         }
     }
@@ -342,14 +351,14 @@ fn every_pass_of_every_variant_is_valid_and_finds_its_buffers() {
 
 #[test]
 fn every_planned_buffer_is_used_by_a_pass() {
-    for plan in &COMPOSED.plans {
-        let shaders = plan.passes.iter().map(|row| COMPOSED.shader(plan, row));
-        let used: Vec<_> = shaders
-            .flat_map(|shader| &shader.as_ref().expect("a valid shader").resources)
+    for (plan, rows) in COMPOSED.passes() {
+        let used: BTreeSet<String> = rows
+            .into_iter()
+            .flat_map(|(_, resources)| resources.expect("a valid shader"))
             .collect();
         // Arguments of dispatches are used by being there.
         for buffer in plan.buffers.iter().filter(|b| b.usage != Usage::Indirect) {
-            assert!(used.contains(&&buffer.name), "no pass uses `{}`", buffer.name);
+            assert!(used.contains(&buffer.name), "no pass uses `{}`", buffer.name);
         }
     }
 }
@@ -477,8 +486,8 @@ fn one_file_may_be_composed_differently_from_phase_to_phase() {
 #[test]
 fn shared_structs_agree_offset_by_offset() {
     let mut seen = BTreeSet::new();
-    for shader in COMPOSED.shaders.values() {
-        for layout in &shader.as_ref().expect("a valid shader").structs {
+    for shader in &COMPOSED.shaders {
+        for layout in shader.as_ref().expect("a valid shader").structs() {
             let Some(host) = SHARED.iter().find(|s| s.name == layout.name) else {
                 continue;
             };

@@ -13,7 +13,7 @@ use sliceflow::scene::Scene;
 use sliceflow::simulation::passes::{Kernels, Passes};
 
 /// Around the sizes of workgroups (64), of scanning workgroups (256), of blocks, and of 2^16.
-const SIZES: &[usize] = &[0, 1, 2, 31, 255, 256, 257, 65_537, 1_000_000];
+const SIZES: &[usize] = &[0, 1, 2, 31, 255, 256, 257, 65_537, 400_000];
 
 /// A plan's buffers and passes without a simulation around them.
 struct Bench {

@@ -107,7 +107,7 @@ fn drops_meet_walls_at_their_angle() {
                 &[
                     &walls,
                     &angle,
-                    "time.duration=10",
+                    "time.duration=5",
                     "time.fps=1",
                     "fluid.viscosity=0.3",
                 ],

@@ -83,21 +83,27 @@ impl Progress {
 
     pub fn frame(&mut self, frame: &Frame, tally: &Tally) {
         let remaining_s = self.forecast.add(tally.frames_done, tally.wall_s);
-        let left = remaining_s.map_or_else(String::new, |left| format!(", {} left", seconds(left)));
-        let rate = short(tally.particle_steps_per_s);
+        // The first frame has no steps, and a frame that is drawn again neither.
+        let mut how_fast = Vec::new();
+        if tally.particle_steps > 0 {
+            how_fast.push(format!("{} particle steps/s", short(tally.particle_steps_per_s)));
+        }
+        how_fast.extend(remaining_s.map(|left| format!("{} left", seconds(left))));
         match &mut self.show {
             Show::Bar(bar) => {
                 bar.set(tally.frames_done);
-                bar.message(format!("{rate} particle steps/s{left}"));
+                bar.message(how_fast.join(", "));
             }
             Show::Plain { last } => {
                 let is_last = tally.frames_done == tally.frames;
                 if is_last || last.is_none_or(|last| last.elapsed() >= LINE_PAUSE) {
                     *last = Some(Instant::now());
-                    line(&format!(
-                        "frame {} of {}, t = {:.3} s, {rate} particle steps/s{left}",
-                        tally.frames_done, tally.frames, frame.time,
-                    ));
+                    let place = format!(
+                        "frame {} of {}, t = {:.3} s",
+                        tally.frames_done, tally.frames, frame.time
+                    );
+                    how_fast.insert(0, place);
+                    line(&how_fast.join(", "));
                 }
             }
             Show::Json => event(json!({

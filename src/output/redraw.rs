@@ -172,7 +172,7 @@ pub fn redraw(
         for sink in &mut sinks {
             sink.frame(&frame)?;
         }
-        tally.add(&frame);
+        tally.add_drawn();
         progress.frame(&frame, &tally);
         Ok(())
     };

@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::checkpoint::Checkpoint;
 use super::configuration::{Configuration, Recorded};
-use super::drive::{Launch, Start, drive, open};
+use super::drive::{Launch, Start, drive};
 use super::folder::Folder;
 use super::interrupt;
 use super::progress::Progress;
@@ -19,6 +19,7 @@ use super::stopping::Stopping;
 use super::text::count;
 use crate::error::{Error, Result};
 use crate::files;
+use crate::gpu::Gpu;
 use crate::plan::{Plan, Wanted};
 use crate::scene::Scene;
 use crate::simulation::{Simulation, State};
@@ -348,7 +349,8 @@ fn reach(
     ));
     let stopping = Stopping::default();
     stopping.listen(progress);
-    let gpu = open(settings, progress)?;
+    // The run of the variant opens it again, and tells what is to be known about it.
+    let gpu = Gpu::open(&settings.adapter, false)?;
     let plan = Plan::new(scene, &gpu.limits, &Wanted::default())?;
     if let Some(why) = &plan.lists_left_out {
         progress.note(why);

@@ -63,6 +63,12 @@ impl Tally {
         self.particle_steps_per_s = self.particle_steps as f64 / self.wall_s;
     }
 
+    /// Counts the next frame of a run that is drawn again, in which no steps are made.
+    pub fn add_drawn(&mut self) {
+        self.frames_done += 1;
+        self.stop_clock();
+    }
+
     /// Reads the clock once more.
     pub fn stop_clock(&mut self) {
         self.wall_s = self.wall_before_s + self.started.elapsed().as_secs_f64();

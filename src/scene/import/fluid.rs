@@ -1,4 +1,4 @@
-//! What the peer's fluid becomes: a weakly compressible fluid of the same particles.
+//! What the peer's fluid becomes: a fluid of the same particles.
 
 use glam::DVec3;
 use serde_json::{Value, json};

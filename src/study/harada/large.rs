@@ -44,7 +44,9 @@ pub fn figure_8(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
     let mut table = Table::new(["grid", "grains", "construction, ms", "step, ms", "remark"]);
     let effort = Effort { rounds: 3, steps: 2 };
     let runs = landscape(scale.large_divisor)?;
-    run(&mut table, bench, &runs, effort);
+    for grid in scale.timed(main_names()) {
+        run(&mut table, bench, &runs, grid, effort);
+    }
     if scale.large_divisor > 1 {
         page.paragraph(format!(
             "On the device the same hills were stepped 1/{} as large along each side; `--scale full` steps them at full \
@@ -106,30 +108,28 @@ fn memory(page: &mut Page, scene: &Scene) {
     page.table("figure_8_memory", &table);
 }
 
-/// Runs the grids that this adapter can hold.
-fn run(table: &mut Table, bench: &Bench, scene: &Scene, effort: Effort) {
-    for grid in main_names() {
-        let planned = scenes::with_grid(scene, &grid)
-            .and_then(|scene| Plan::new(&scene, &bench.limits, &Wanted::default()).map(|_| scene));
-        let outcome = match planned {
-            Ok(scene) => bench
-                .measure(
-                    &[Entry {
-                        name: grid.clone(),
-                        scene,
-                    }],
-                    effort,
-                )
-                .remove(0),
-            Err(error) => Err(first_line(&error)),
-        };
-        let times = outcome.as_ref().ok();
-        table.row([
-            Cell::text(format!("`{grid}`")),
-            Cell::count(scene.capacity.into()),
-            Cell::maybe(times.map(|t| t.build_ms)),
-            Cell::maybe(times.map(|t| t.step_ms)),
-            outcome.as_ref().err().map_or(Cell::Nothing, Cell::text),
-        ]);
-    }
+/// Runs a grid, if this adapter can hold it.
+fn run(table: &mut Table, bench: &Bench, scene: &Scene, grid: String, effort: Effort) {
+    let planned = scenes::with_grid(scene, &grid)
+        .and_then(|scene| Plan::new(&scene, &bench.limits, &Wanted::default()).map(|_| scene));
+    let outcome = match planned {
+        Ok(scene) => bench
+            .measure(
+                &[Entry {
+                    name: grid.clone(),
+                    scene,
+                }],
+                effort,
+            )
+            .remove(0),
+        Err(error) => Err(first_line(&error)),
+    };
+    let times = outcome.as_ref().ok();
+    table.row([
+        Cell::text(format!("`{grid}`")),
+        Cell::count(scene.capacity.into()),
+        Cell::maybe(times.map(|t| t.build_ms)),
+        Cell::maybe(times.map(|t| t.step_ms)),
+        outcome.as_ref().err().map_or(Cell::Nothing, Cell::text),
+    ]);
 }

@@ -13,7 +13,7 @@ mod times;
 use std::path::PathBuf;
 use std::rc::Rc;
 
-use super::bench::Bench;
+use super::bench::{Bench, LISTED};
 use super::measure::Effort;
 use super::page::Page;
 use super::parts::{self, Part};
@@ -62,6 +62,8 @@ pub struct Scale {
     seconds: [f64; 4],
     fps: f64,
     effort: Effort,
+    /// Grids that are timed, where these are not all.
+    grids: Option<&'static [&'static str]>,
     /// Repetitions of a construction on the processor.
     cpu_rounds: u32,
     /// The paper's large area has 700 × 256 × 700 voxels; ours that runs is so many times smaller along each side.
@@ -76,6 +78,24 @@ pub struct Scale {
     tank_steps: u32,
 }
 
+impl Scale {
+    /// Those of these grids that are timed.
+    fn timed(&self, mut names: Vec<String>) -> Vec<String> {
+        names.retain(|name| self.grids.is_none_or(|grids| grids.contains(&name.as_str())));
+        names
+    }
+}
+
+/// Those that the pages' tables and pictures name, and one that is a sort.
+const FEW_GRIDS: [&str; 6] = [
+    times::FIXED,
+    times::SLICED,
+    "uniform-counting",
+    "sliced-counting",
+    "rows-bitonic",
+    LISTED[0],
+];
+
 fn scale(size: Size) -> Scale {
     match size {
         Size::Tiny => Scale {
@@ -84,6 +104,7 @@ fn scale(size: Size) -> Scale {
             seconds: [0.02; 4],
             fps: 200.0,
             effort: Effort { rounds: 1, steps: 2 },
+            grids: Some(&FEW_GRIDS),
             cpu_rounds: 3,
             large_divisor: 16,
             area_divisor: 16,
@@ -97,6 +118,7 @@ fn scale(size: Size) -> Scale {
             seconds: [1.2, 1.2, 0.8, 0.4],
             fps: 60.0,
             effort: Effort { rounds: 3, steps: 12 },
+            grids: None,
             cpu_rounds: 15,
             large_divisor: 5,
             area_divisor: 1,
@@ -113,6 +135,7 @@ fn scale(size: Size) -> Scale {
                 rounds: 15,
                 steps: 20,
             },
+            grids: None,
             cpu_rounds: 31,
             large_divisor: 1,
             area_divisor: 1,

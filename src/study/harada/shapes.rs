@@ -73,7 +73,7 @@ pub fn shapes(page: &mut Page, bench: &Bench, scale: &Scale, splash: &Drop) -> R
             count(scene.capacity.into())
         ));
         let memory = Memory::of(scene, &scene.particles.position);
-        for (grid, outcome) in of_grids(bench, scale, scene, main_names()) {
+        for (grid, outcome) in of_grids(bench, scale, scene, scale.timed(main_names())) {
             let one = memory.allocation(&grid);
             let bytes = memory.bytes(&grid);
             let storage = if grid.ends_with("-pool") {

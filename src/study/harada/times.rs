@@ -57,7 +57,12 @@ pub fn of_drops(bench: &Bench, scale: &Scale, drops: &[Rc<Drop>]) -> Result<AllT
         bench.check()?;
         let grains = count(drop.scene.capacity.into());
         bench.tell(&format!("harada: times of all grids, {grains} grains"));
-        Ok(of_grids(bench, scale, &drop.at(&drop.widest), timed_names()))
+        Ok(of_grids(
+            bench,
+            scale,
+            &drop.at(&drop.widest),
+            scale.timed(timed_names()),
+        ))
     };
     drops.iter().map(of_drop).collect()
 }
