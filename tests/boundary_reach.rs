@@ -92,7 +92,7 @@ fn drop_in_a_tank() -> Scene {
             "dimensions": 2,
             "domain": { "min": [0, 0], "max": [4, 1] },
             "gravity": [0, -10],
-            "fluid": { "spacing": 0.05, "max_speed": 5, "viscosity": 5, "background_pressure": 100 },
+            "fluid": { "solver": "wcsph", "spacing": 0.05, "max_speed": 5, "viscosity": 5, "background_pressure": 100 },
             "bodies": [
                 { "shape": { "kind": "box", "min": [1.5, 0.05], "max": [2.5, 0.5] }, "velocity": [0, -1] }
             ],
@@ -193,7 +193,7 @@ fn a_dam_in_a_large_tank_has_lists_within_the_limits_of_software() {
     let scene = parsed(
         r#"{
             "domain": { "min": [-2, 0, -0.75], "max": [2, 3, 0.75] },
-            "fluid": { "spacing": 0.025, "density": 1000, "viscosity": 10 },
+            "fluid": { "solver": "wcsph", "spacing": 0.025, "density": 1000, "viscosity": 10 },
             "bodies": [
                 { "shape": { "kind": "box", "min": [-1.9375, 0.0625, -0.4875], "max": [-0.9625, 1.0375, 0.4875] } }
             ],

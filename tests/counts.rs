@@ -10,7 +10,7 @@ use serde_json::Value;
 const DAM: &str = r#"{
   "dimensions": 2,
   "domain": { "min": [0, 0], "max": [1, 1] },
-  "fluid": { "spacing": 0.025, "viscosity": 0.05, "artificial_viscosity": 0.05 },
+  "fluid": { "solver": "wcsph", "spacing": 0.025, "viscosity": 0.05, "artificial_viscosity": 0.05 },
   "bodies": [ { "shape": { "kind": "box", "min": [0, 0], "max": [0.5, 0.5] } } ],
   "time": { "duration": 0.004, "fps": 500 },
   "render": { "size": [64, 48] }

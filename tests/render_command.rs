@@ -15,6 +15,7 @@ const FLUID: &str = r#"{
   "dimensions": 2,
   "domain": { "min": [0, 0], "max": [1, 0.6] },
   "fluid": {
+    "solver": "wcsph",
     "spacing": 0.05, "viscosity": 0.05, "artificial_viscosity": 0.1,
     "materials": [ { "name": "water", "density": 1000 }, { "name": "oil", "density": 900 } ]
   },

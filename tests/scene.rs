@@ -418,7 +418,7 @@ fn boxes_that_share_a_spacing_stay_whole() {
     let mut given = json!({
         "dimensions": 2,
         "domain": { "min": [0, 0], "max": [1, 1] },
-        "fluid": { "spacing": 0.1 },
+        "fluid": { "solver": "wcsph", "spacing": 0.1 },
         "bodies": [
             { "shape": { "kind": "box", "min": [0, 0], "max": [0.46, 0.5] } },
             { "shape": { "kind": "box", "min": [0.46, 0], "max": [1, 0.53] } }

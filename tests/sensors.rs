@@ -55,7 +55,7 @@ fn still_water(dimensions: usize) -> &'static str {
         2 => {
             r#"{
   "dimensions": 2, "domain": { "min": [0, 0], "max": [0.4, 0.5] }, "gravity": [0, -9.81],
-  "fluid": { "spacing": 0.01 },
+  "fluid": { "solver": "wcsph", "spacing": 0.01 },
   "bodies": [{ "shape": { "kind": "box", "min": [0, 0], "max": [0.4, 0.3] }, "pressure": "hydrostatic" }],
   "sensors": [
     { "name": "deep", "kind": "point", "at": [0.2, 0.1] },
@@ -78,7 +78,7 @@ fn still_water(dimensions: usize) -> &'static str {
         _ => {
             r#"{
   "dimensions": 3, "domain": { "min": [0, 0, 0], "max": [0.4, 0.5, 0.3] }, "gravity": [0, -9.81, 0],
-  "fluid": { "spacing": 0.025 },
+  "fluid": { "solver": "wcsph", "spacing": 0.025 },
   "bodies": [{ "shape": { "kind": "box", "min": [0, 0, 0], "max": [0.4, 0.3, 0.3] }, "pressure": "hydrostatic" }],
   "sensors": [
     { "name": "deep", "kind": "point", "at": [0.2, 0.1, 0.15] },
@@ -165,7 +165,7 @@ fn water_at_rest_has_its_pressures_and_weighs_on_the_floor() {
 
 const STREAM: &str = r#"{
   "dimensions": 3, "domain": { "min": [0, 0, 0], "max": [0.8, 0.4, 0.4], "walls": "periodic" }, "gravity": [0, 0, 0],
-  "fluid": { "spacing": 0.04, "max_speed": 1 },
+  "fluid": { "solver": "wcsph", "spacing": 0.04, "max_speed": 1 },
   "bodies": [{ "shape": { "kind": "box", "min": [0, 0, 0], "max": [0.8, 0.4, 0.4] }, "velocity": [0.5, -0.25, 0.125] }],
   "sensors": [
     { "name": "inside", "kind": "point", "at": [0.41, 0.17, 0.22], "field": "velocity" },
@@ -221,7 +221,7 @@ fn momentum(frame: &Frame, mass: f64) -> DVec3 {
 
 const SPLASH: &str = r#"{
   "dimensions": 2, "domain": { "min": [0, 0], "max": [0.6, 0.5] }, "gravity": [1, -9.81],
-  "fluid": { "spacing": 0.02, "max_speed": 3, "viscosity": 1 },
+  "fluid": { "solver": "wcsph", "spacing": 0.02, "max_speed": 3, "viscosity": 1 },
   "bodies": [{ "shape": { "kind": "box", "min": [0, 0], "max": [0.3, 0.4] }, "velocity": [2, 0] }],
   "colliders": [{ "name": "post", "shape": { "kind": "box", "min": [0.31, 0], "max": [0.4, 0.16] } }],
   "sensors": [

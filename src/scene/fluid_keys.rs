@@ -201,7 +201,7 @@ mod tests {
         let told = problems(&json!({
             "dimensions": 2,
             "domain": { "min": [0, 0], "max": [1, 1] },
-            "fluid": { "spacing": 0.05, "negative_pressure": "control", "pressure_force": "monaghan" },
+            "fluid": { "solver": "wcsph", "spacing": 0.05, "negative_pressure": "control", "pressure_force": "monaghan" },
             "bodies": [{ "shape": { "kind": "box", "min": [0, 0], "max": [0.3, 0.3] } }],
             "colliders": [{ "shape": { "kind": "box", "min": [0.6, 0.6], "max": [0.8, 0.8] }, "spin": 1 }],
         }));

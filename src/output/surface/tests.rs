@@ -114,7 +114,8 @@ fn a_fluids_particles_are_half_a_spacing_large() {
     let frame = folder.path().join("particles_000000");
     std::fs::create_dir(&frame).unwrap();
     npy::write(&frame.join("position.npy"), 3, &[0.0; 3]).unwrap();
-    let manifest = r#"{ "scene": { "dimensions": 3, "fluid": { "spacing": 0.05 } }, "frames": 1 }"#;
+    let manifest =
+        r#"{ "scene": { "dimensions": 3, "fluid": { "solver": "wcsph", "spacing": 0.05 } }, "frames": 1 }"#;
     std::fs::write(folder.path().join("run.json"), manifest).unwrap();
     let sequence = Sequence::open(folder.path()).unwrap();
     assert_eq!((sequence.radius, sequence.frames.len()), (RADIUS, 1));

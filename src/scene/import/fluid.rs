@@ -85,12 +85,12 @@ pub fn substance(peer: &Peer, ignored: &mut Vec<Ignored>) -> Value {
         found.map_or(DENSITY, |material| material.density)
     };
     let mut fluid = json!({
+        "solver": if is_dfsph { "dfsph" } else { "wcsph" },
         "spacing": 2.0 * peer.radius,
         "density": used.first().map_or(DENSITY, |id| density(id)),
         "viscosity": VISCOSITY,
     });
     if is_dfsph {
-        fluid["solver"] = "dfsph".into();
         let errors = [
             ("max_density_error", peer.density_error),
             ("max_divergence_error", peer.divergence_error),

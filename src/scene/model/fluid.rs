@@ -164,11 +164,11 @@ pub struct Material {
 pub enum FluidSolver {
     /// Müller 2003 as Harada 2007 used it: density by summation, linear pressure, a kernel for each force.
     Sph,
-    /// Weakly compressible SPH (Monaghan 1994; Rojas 2013).
-    #[default]
+    /// Weakly compressible SPH (Monaghan 1994; Rojas 2013): short steps; knows surface tension, several fluids, walls as
+    /// planes, and the corrections that the most accurate flows need.
     Wcsph,
     /// Divergence-free, incompressible SPH (Bender and Koschier 2015, 2017): long adaptive steps, pressures by iteration.
-    /// Young: pressures along walls are too high, and impacts take many iterations.
+    #[default]
     Dfsph,
 }
 
