@@ -307,6 +307,7 @@ impl<'a> Obstacle<'a> {
     }
 
     /// Where a point that lies inside comes out by the shortest way, if it is less than `limit` deep; metres.
+    #[cfg(feature = "surface")]
     pub fn way_out(&self, at: DVec3, limit: f64) -> Option<DVec3> {
         let out = match self.shape {
             ColliderShape::Plane { point, normal } => {
@@ -408,6 +409,7 @@ mod tests {
         }
     }
 
+    #[cfg(feature = "surface")]
     #[test]
     fn what_lies_inside_comes_out_by_the_shortest_way() {
         let (min, max) = (DVec3::new(-1.0, 0.0, 0.5), DVec3::new(0.5, 2.0, 1.0));
@@ -436,7 +438,8 @@ mod tests {
         assert_eq!(out(&block, [-0.3, 1.0, 0.75]), None, "it is 0.25 deep");
         let (inner, outer) = ([0.0, 1.9, 0.0], [0.0, 2.1, 0.0]);
         for (hollow, inside, outside) in [(false, inner, outer), (true, outer, inner)] {
-            assert_eq!(out(&ball(hollow), inside), Some(DVec3::new(0.0, 2.0, 0.0)));
+            let foot = out(&ball(hollow), inside).unwrap();
+            assert!(foot.distance(DVec3::new(0.0, 2.0, 0.0)) < 1e-12, "{foot}");
             assert_eq!(out(&ball(hollow), outside), None);
         }
     }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::{SurfaceMesh, VertexColumn, glb};
 
-/// A format of meshes. [`is_surface`](crate::output::folder::is_surface) knows how its files begin. To add one: a row of [`MESH_FORMATS`].
+/// A format of meshes. To add one: a row of [`MESH_FORMATS`], and how its files begin in `src/output/folder.rs`.
 #[derive(Debug)]
 pub struct MeshFormat {
     /// On the command line, and the ending of a file's name.

@@ -78,7 +78,7 @@ pub fn reconstruct(
     let mass = parameters.rest_density * (spacing as f32).powi(3);
     let interpolator = SphInterpolator::new(&local, density, mass, parameters.compact_support_radius);
 
-    let mut connectivity = match settings.cleanup {
+    let connectivity = match settings.cleanup {
         true => marching_cubes_cleanup(&mut mesh, &made.grid, None, CLEANUP_ROUNDS, false),
         false => mesh.vertex_vertex_connectivity(),
     };
@@ -102,29 +102,24 @@ pub fn reconstruct(
     par_laplacian_smoothing_normals_inplace(&mut normals, &connectivity, NORMAL_SMOOTHING);
 
     let mut vertices: Vec<DVec3> = Vec::with_capacity(mesh.vertices.len());
-    let mut on_side = vec![false; mesh.vertices.len()];
+    let mut sides = vec![0; mesh.vertices.len()];
     for (index, vertex) in mesh.vertices.iter().enumerate() {
         let mut place = DVec3::new(vertex.x.into(), vertex.y.into(), vertex.z.into()) + origin;
         place = walls.way_out(place, cloud.frame, spacing);
-        if let Some(outward) = walls.clamp(&mut place) {
-            on_side[index] = true;
-            let outward = Vector3::from(outward.as_vec3().to_array());
-            if normals[index].dot(&outward) > FACES_SIDE {
-                normals[index] = outward;
+        let outward = walls.clamp(&mut place).as_vec3();
+        for axis in (0..3).filter(|&axis| outward[axis] != 0.0) {
+            sides[index] += 1;
+            if normals[index][axis] * outward[axis] > FACES_SIDE {
+                normals[index] = Vector3::ith(axis, outward[axis]);
             }
         }
         vertices.push(place);
     }
-    if on_side.contains(&true) {
+    if sides.iter().any(|&sides| sides > 0) {
         for (vertex, place) in mesh.vertices.iter_mut().zip(&vertices) {
             *vertex = Vector3::from((*place - origin).as_vec3().to_array());
         }
-        join_flattened(
-            &mut mesh,
-            &mut connectivity,
-            &on_side,
-            APART * parameters.cube_size,
-        );
+        join_flattened(&mut mesh, &sides, APART * parameters.cube_size);
     }
     let kept = used_vertices(&mesh);
     let places: Vec<Vector3<f32>> = kept.iter().map(|&index| mesh.vertices[index]).collect();
@@ -191,27 +186,23 @@ fn smoothing_weights(
         .collect()
 }
 
-/// Joins vertices on sides of the domain that lie upon each other since they were moved there.
-fn join_flattened(
-    mesh: &mut TriMesh3d<f32>,
-    connectivity: &mut Vec<Vec<usize>>,
-    on_side: &[bool],
-    apart: f32,
-) {
+/// Joins vertices on sides of the domain that lie upon each other since they were moved there; those on more sides stay, so
+/// that corners and edges do.
+fn join_flattened(mesh: &mut TriMesh3d<f32>, sides: &[u8], apart: f32) {
     let mut halves = HalfEdgeTriMesh::from(std::mem::take(mesh));
     let mut near = Vec::new();
     for _ in 0..CLEANUP_ROUNDS {
         let mut joined = false;
-        for vertex in (0..on_side.len()).filter(|&vertex| on_side[vertex]) {
+        for vertex in (0..sides.len()).filter(|&vertex| sides[vertex] > 0) {
             if !halves.is_valid_vertex(vertex) {
                 continue;
             }
             let place = halves.vertices[vertex];
-            let ring = halves.vertex_one_ring(vertex);
+            let may_go = |&other: &usize| {
+                (1..=sides[vertex]).contains(&sides[other]) && (halves.vertices[other] - place).norm() < apart
+            };
             near.clear();
-            near.extend(
-                ring.filter(|&other| on_side[other] && (halves.vertices[other] - place).norm() < apart),
-            );
+            near.extend(halves.vertex_one_ring(vertex).filter(may_go));
             for &other in &near {
                 if halves.is_valid_vertex(other)
                     && let Some(edge) = halves.half_edge(other, vertex)
@@ -224,7 +215,7 @@ fn join_flattened(
             break;
         }
     }
-    (*mesh, *connectivity) = halves.into_parts(true);
+    *mesh = halves.into_parts(true).0;
 }
 
 /// Vertices that triangles have, in order.

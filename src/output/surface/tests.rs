@@ -210,21 +210,21 @@ fn a_tank_at_rest_ends_at_its_walls_and_has_its_volume() {
 fn surfaces_end_at_obstacles_where_they_are_then() {
     let scene = parse(TANK, "tank", Path::new("."), &[]).unwrap();
     let walls = Walls::of(&scene);
-    let pillar = |frame: u32| {
+    let pillar = |frame: u32, inner: f64| {
         let offset = DVec3::new(100.0 + 0.03 * f64::from(frame), 0.0, 0.0);
         move |p: DVec3| {
             (p - offset - DVec3::new(0.4, 0.4, 0.3))
                 .abs()
-                .cmple(DVec3::new(0.1, 0.4, 0.1))
+                .cmple(DVec3::new(0.1, 0.4, 0.1) - inner)
                 .all()
         }
     };
     for frame in [0, 10] {
-        let inside = pillar(frame);
+        let (inside, deep) = (pillar(frame, 0.0), pillar(frame, 1e-3 * RADIUS));
         let mut cloud = lattice([20, 10, 12], |p| !inside(p + DVec3::new(100.0, 0.0, 0.0)));
         cloud.frame = frame;
         cloud.position.iter_mut().for_each(|p| p.x += 100.0);
-        let deepest = |mesh: &SurfaceMesh| mesh.vertices.iter().filter(|&&v| inside(v)).count();
+        let deepest = |mesh: &SurfaceMesh| mesh.vertices.iter().filter(|&&v| deep(v)).count();
         let (ended, through) = (
             made(&cloud, &walls, &settings("ply")),
             made(&cloud, &Walls::default(), &settings("ply")),

@@ -68,15 +68,15 @@ impl<'a> Walls<'a> {
         all.split_off(position.len())
     }
 
-    /// Moves a vertex onto the side beyond which it is; says which way that side looks, outward.
-    pub fn clamp(&self, vertex: &mut DVec3) -> Option<DVec3> {
-        let mut outward = None;
+    /// Moves a vertex onto the sides beyond which it is; says which way each looks, outward: 0 along axes without one.
+    pub fn clamp(&self, vertex: &mut DVec3) -> DVec3 {
+        let mut outward = DVec3::ZERO;
         for (axis, [low, high]) in self.sides.iter().enumerate() {
             for (side, out) in [(low, -1.0), (high, 1.0)] {
                 let Some(side) = *side else { continue };
                 if (vertex[axis] - side) * out > 0.0 {
                     vertex[axis] = side;
-                    outward = Some(DVec3::AXES[axis] * out);
+                    outward[axis] = out;
                 }
             }
         }
