@@ -40,7 +40,8 @@
 //! - `src/output/`: sinks, each fed by bounded threads, and the run that drives them (`src/output/drive.rs`); its
 //!   checkpoints, and how it goes on from them (`src/output/resume.rs`); which files of a folder are a run's own
 //!   (`src/output/record.rs`); recordings for the Rerun viewer
-//!   (`src/output/rerun.rs`). What sensors found, as tables and charts (`src/output/sensors.rs`), also afterwards from
+//!   (`src/output/rerun.rs`). Meshes around a run's particles (`src/output/surface/`), and runs as USD (`src/output/usd/`).
+//!   What sensors found, as tables and charts (`src/output/sensors.rs`), also afterwards from
 //!   particle files (`src/output/sensors/from_files.rs`).
 //! - `src/study/`: what the papers measured, measured again, a page each; errors against theory and experiment, beside
 //!   what they cost (`src/study/accuracy/`); what each choice costs and gains (`src/study/speed_error/`); which steps and
@@ -106,6 +107,7 @@
 //! - a parameter that events change: one key in `src/scene/model.rs` and one row in `src/scene/changes.rs`;
 //! - a format of particle files: one row in `src/output/particles/formats.rs`; a kind of video: one in
 //!   `src/output/video/mod.rs`;
+//! - a format of surfaces: one row in `src/output/surface/mesh_file.rs`;
 //! - a color map: one row in `src/scene/color_maps.rs`;
 //! - a study: one row in `src/study/mod.rs`, whose parts (`src/study/parts.rs`) run alone too;
 //! - a case with a known truth: one file and one row in `src/study/accuracy/cases/`, its data in `assets/reference/`;

@@ -71,6 +71,7 @@ fn help_has_examples() {
         "schema",
         "devices",
         "surface",
+        "usd",
         "import",
         "new",
         "study",

@@ -47,6 +47,9 @@ fn run(scene: &str, folder: &Path, more: &[&str]) -> PathBuf {
 
 const SCENE_3D: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/common/scene_3d.json");
 
+#[cfg(feature = "surface")]
+const SCENE_FLUID: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/common/fluid_3d.json");
+
 #[test]
 fn particle_files_are_what_the_arrays_say() {
     let meshes = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/meshes");
@@ -74,4 +77,35 @@ fn particle_files_are_what_the_arrays_say() {
         let told = python("particles.py", &[&[out, "250"], frames].concat());
         assert_eq!(told.trim(), format!("{} frames agree", frames.len()));
     }
+}
+
+/// What artists' programs open: surfaces as glTF, and everything as USD, with value clips and in one file.
+#[cfg(feature = "surface")]
+#[test]
+fn surfaces_and_usd_are_what_the_arrays_say() {
+    let folder = tempfile::tempdir().unwrap();
+    let more = [
+        "--particles",
+        "npy",
+        "--frames",
+        "3",
+        "--fps",
+        "50",
+        "--particles-every",
+        "2",
+    ];
+    let out = run(SCENE_FLUID, folder.path(), &more);
+    let place = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (run, glbs, clips, one_file) = (out.to_str().unwrap(), place("glb"), place("clips"), place("one"));
+    for arguments in [
+        &["surface", run][..],
+        &["surface", run, "--format", "glb", "--out", &glbs],
+        &["usd", run, "--out", &clips],
+        &["usd", run, "--one-file", "--out", &one_file],
+    ] {
+        let mut command = assert_cmd::cargo::cargo_bin_cmd!("sliceflow");
+        command.args(arguments).assert().success();
+    }
+    let told = python("artists.py", &[run, &glbs, &clips, &one_file, "50", "0", "2"]);
+    assert!(told.starts_with("2 frames agree"), "{told}");
 }

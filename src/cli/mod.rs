@@ -36,6 +36,7 @@ mod study;
 #[cfg(feature = "surface")]
 mod surface;
 mod table;
+mod usd;
 
 #[cfg(not(feature = "surface"))]
 use absent::surface;
@@ -73,6 +74,7 @@ enum Command {
     Measure(measure::Args),
     Neighbors(neighbors::Args),
     Surface(surface::Args),
+    Usd(usd::Args),
     Import(import::Args),
     New(new::Args),
     Scenes(scenes::Args),
@@ -100,6 +102,7 @@ pub fn main() -> Result<()> {
         Command::Measure(args) => measure::main(&args),
         Command::Neighbors(args) => neighbors::main(&args),
         Command::Surface(args) => surface::main(&args),
+        Command::Usd(args) => usd::main(&args),
         Command::Import(args) => import::main(&args),
         Command::New(args) => new::main(&args),
         Command::Scenes(args) => scenes::main(&args),

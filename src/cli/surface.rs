@@ -7,13 +7,15 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser as _};
 
 use super::quiet_args::QuietArgs;
 use crate::error::{Error, Result};
-use crate::output::surface::{MESH_FORMATS, MeshFormat, Sequence, SurfaceSettings, make_surfaces};
+use crate::output::Recorded;
+use crate::output::surface::{MESH_FORMATS, MeshFormat, Sequence, SurfaceSettings, Walls, make_surfaces};
 use crate::output::text::{count, seconds};
+use crate::scene::Scene;
 
 /// Turns a run's particles into surfaces, one mesh per frame
 ///
 /// Reads the particle files that `sliceflow run --particles` has written, and writes surface_000000.ply … beside them.
-/// Made with splashsurf (Löschner et al. 2023); lengths are in particle radii.
+/// Made with splashsurf (Löschner et al. 2023): smoothed, closed, ended at walls. Lengths are in particle radii.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -40,8 +42,20 @@ pub struct Args {
     #[arg(long, value_name = "L", default_value = "0.75", value_parser = positive)]
     cube_size: f64,
     /// Density on the surface, as a share of the rest density
-    #[arg(long, value_name = "SHARE", default_value = "0.6", value_parser = positive)]
+    #[arg(long, value_name = "SHARE", default_value = "0.55", value_parser = positive)]
     threshold: f64,
+    /// Rounds of smoothing, from which splashes keep their shape; 0 shows every particle
+    #[arg(long, value_name = "ROUNDS", default_value = "25", value_parser = clap::value_parser!(u32).range(..=1000))]
+    smoothing: u32,
+    /// Leaves thin triangles as marching cubes make them
+    #[arg(long)]
+    no_cleanup: bool,
+    /// Lets the surface stand through walls and obstacles, as far as its particles' kernels reach
+    #[arg(long)]
+    no_clip: bool,
+    /// Columns of the particles that the vertices of .ply and .glb files get [default: velocity, where there is one]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    columns: Option<Vec<String>>,
     /// Leaves normals out
     #[arg(long)]
     no_normals: bool,
@@ -56,7 +70,8 @@ const EXAMPLES: &str = "\
 Examples:
   sliceflow run bunny_pour --particles ply --out out/bunny
   sliceflow surface out/bunny
-  sliceflow surface out/bunny --out out/meshes --format obj --cube-size 0.5";
+  sliceflow surface out/bunny --out out/meshes --format obj --cube-size 0.5
+  sliceflow surface out/bunny --format glb --columns velocity,pressure";
 
 pub fn main(args: &Args) -> Result<()> {
     let recorded = Sequence::open(&args.run)?;
@@ -83,12 +98,17 @@ pub fn main(args: &Args) -> Result<()> {
         smoothing_length: args.smoothing_length,
         cube_size: args.cube_size,
         threshold: args.threshold,
+        smoothing: args.smoothing,
+        cleanup: !args.no_cleanup,
         normals: !args.no_normals,
+        columns: args.columns.clone(),
         format: args.format,
         force: args.force,
         quiet: args.quiet.is_quiet(),
     };
-    let made = make_surfaces(&recorded, out, &settings)?;
+    let scene = scene(args);
+    let walls = scene.as_ref().map_or_else(Walls::default, Walls::of);
+    let made = make_surfaces(&recorded, &walls, out, &settings)?;
     if !made.empty.is_empty() {
         let frames: Vec<_> = made.empty.iter().map(u32::to_string).collect();
         eprintln!(
@@ -104,6 +124,21 @@ pub fn main(args: &Args) -> Result<()> {
         seconds(started.elapsed().as_secs_f64())
     ));
     Ok(())
+}
+
+/// The run's scene, for its walls.
+fn scene(args: &Args) -> Option<Scene> {
+    if args.no_clip {
+        return None;
+    }
+    let scene = Recorded::read(&args.run).and_then(|recorded| recorded.configuration()?.scene(&[]));
+    scene
+        .inspect_err(|reason| {
+            eprintln!(
+                "warning: surfaces stand through walls, since the run's scene cannot be read: {reason}"
+            );
+        })
+        .ok()
 }
 
 /// The row of a name that clap has found among them.

@@ -270,6 +270,8 @@ pub fn numbered(name: &str, prefix: &str, suffix: &str) -> Option<u32> {
     all.then(|| digits.parse().ok()).flatten()
 }
 
+const GLB_TEXT: &[u8] = br#"{"asset":{"generator":"Sliceflow""#;
+
 /// Whether a file begins as surfaces of Sliceflow do.
 pub fn is_surface(path: &Path) -> bool {
     let mut head = Vec::new();
@@ -278,7 +280,9 @@ pub fn is_surface(path: &Path) -> bool {
         b"# Sliceflow\n",
         b"ply\nformat binary_little_endian 1.0\ncomment Sliceflow\n",
     ];
-    read.is_ok() && !files::is_link(path) && marks.iter().any(|mark| head.starts_with(mark))
+    // In a .glb the text stands behind two headers.
+    let is_glb = head.starts_with(b"glTF") && head.get(20..).is_some_and(|text| text.starts_with(GLB_TEXT));
+    read.is_ok() && !files::is_link(path) && (is_glb || marks.iter().any(|mark| head.starts_with(mark)))
 }
 
 #[cfg(test)]

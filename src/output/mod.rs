@@ -38,6 +38,7 @@ mod stopping;
 pub mod surface;
 mod tally;
 pub mod text;
+pub mod usd;
 #[cfg(feature = "video")]
 mod video;
 #[cfg(not(feature = "video"))]

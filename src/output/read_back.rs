@@ -61,12 +61,10 @@ impl ReadBack {
         let Some(path) = self.frames.get(&frame) else {
             return Ok(None);
         };
-        let snapshot = if path.is_dir() {
-            Snapshot::from_arrays(path)
-        } else if path.extension().is_some_and(|extension| extension == "bin") {
+        let snapshot = if path.extension().is_some_and(|extension| extension == "bin") {
             Snapshot::from_checkpoint(path, frame, self.boundary)
         } else {
-            Snapshot::from_points(path)
+            Snapshot::read(path)
         };
         snapshot.map(Some)
     }
@@ -79,6 +77,14 @@ impl Snapshot {
 
     pub fn particles(&self) -> usize {
         self.columns.first().map_or(0, Column::particles)
+    }
+
+    /// Reads a frame's particle file, or its folder of arrays.
+    pub fn read(path: &Path) -> Result<Self> {
+        match path.is_dir() {
+            true => Self::from_arrays(path),
+            false => Self::from_points(path),
+        }
     }
 
     fn from_arrays(folder: &Path) -> Result<Self> {

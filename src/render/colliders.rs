@@ -180,7 +180,7 @@ fn clip(polygon: &[Vec3], point: Vec3, side: Vec3) -> Vec<Vec3> {
 }
 
 /// The polygon in which a plane cuts the domain.
-fn plane_in_box(point: Vec3, normal: Vec3, domain: &Domain) -> Vec<Vec3> {
+pub fn plane_in_box(point: Vec3, normal: Vec3, domain: &Domain) -> Vec<Vec3> {
     let (u, v) = normal.any_orthonormal_pair();
     let reach = (domain.max - domain.min).length() + (point - domain.min).length();
     let mut polygon: Vec<Vec3> = [-u - v, u - v, u + v, v - u]

@@ -22,9 +22,9 @@ mod water_stages;
 
 use glam::Vec3;
 
-pub use backdrop::POOL_COLORS;
+pub use backdrop::{POOL_COLORS, linear};
 pub use camera::Sight;
-pub use colliders::{Vertices, triangles as collider_vertices};
+pub use colliders::{Vertices, plane_in_box, triangles as collider_vertices};
 pub use layout::{Layout, PoolPlace, Rectangle};
 pub use needs::{DrawNeed, Needs, TextureNeed, needs};
 pub use overlay::{Caption, Overlay};

@@ -45,7 +45,7 @@ const RANGE: f64 = 3.0;
 const RETREAT: f64 = 1.0;
 /// Neighbors that a drop has less of, and that a particle inside the water has more of, as shares of those in the middle.
 const FEW: f64 = 0.2;
-const MANY: f64 = 0.45;
+const MANY: f64 = 0.58;
 /// The length after which light has the water's color where the scene does not say, as a share of the domain's diagonal.
 const ABSORPTION_SHARE: f64 = 0.1;
 /// Light that comes back from deep water, as a share of its color.

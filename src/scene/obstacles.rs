@@ -306,6 +306,47 @@ impl<'a> Obstacle<'a> {
         }
     }
 
+    /// Where a point that lies inside comes out by the shortest way, if it is less than `limit` deep; metres.
+    #[cfg(feature = "surface")]
+    pub fn way_out(&self, at: DVec3, limit: f64) -> Option<DVec3> {
+        let out = match self.shape {
+            ColliderShape::Plane { point, normal } => {
+                let normal = normal.as_dvec3();
+                let height = normal.dot(at - point.as_dvec3());
+                (height < 0.0).then(|| at - normal * height)?
+            }
+            ColliderShape::Box { min, max } => {
+                let (min, max) = (min.as_dvec3(), max.as_dvec3());
+                let depth = (at - min).min(max - at);
+                if depth.min_element() <= 0.0 {
+                    return None;
+                }
+                let axis = depth.min_position();
+                let mut out = at;
+                out[axis] = if at[axis] - min[axis] < max[axis] - at[axis] {
+                    min[axis]
+                } else {
+                    max[axis]
+                };
+                out
+            }
+            ColliderShape::Sphere {
+                center,
+                radius,
+                hollow,
+            } => {
+                let (center, radius) = (center.as_dvec3(), f64::from(*radius));
+                let inside = (at.distance(center) < radius) != *hollow;
+                inside.then(|| center + (at - center).normalize_or(DVec3::Y) * radius)?
+            }
+            ColliderShape::Mesh(_) => {
+                let surface = self.surface.as_ref()?;
+                surface.nearest(at, limit).filter(|_| surface.contains(at))?
+            }
+        };
+        (out.distance(at) < limit).then_some(out)
+    }
+
     /// Whether a ball of radius `reach` touches it, or lies inside.
     pub fn touches(&self, center: DVec3, reach: f64) -> bool {
         match self.shape {
@@ -365,6 +406,41 @@ mod tests {
                 touching += usize::from(expected);
             }
             assert!(touching >= 3 * 4 * 2);
+        }
+    }
+
+    #[cfg(feature = "surface")]
+    #[test]
+    fn what_lies_inside_comes_out_by_the_shortest_way() {
+        let (min, max) = (DVec3::new(-1.0, 0.0, 0.5), DVec3::new(0.5, 2.0, 1.0));
+        let plane = ColliderShape::Plane {
+            point: glam::Vec3::new(0.0, 2.0, 0.0),
+            normal: glam::Vec3::Y,
+        };
+        let block = ColliderShape::Box {
+            min: min.as_vec3(),
+            max: max.as_vec3(),
+        };
+        let triangles = ColliderShape::Mesh(cube(min, max));
+        let ball = |hollow| ColliderShape::Sphere {
+            center: glam::Vec3::ZERO,
+            radius: 2.0,
+            hollow,
+        };
+        let out = |shape: &ColliderShape, point: [f64; 3]| {
+            Obstacle::new(shape, Dimensions::Three).way_out(point.into(), 0.2)
+        };
+        let top = Some(DVec3::new(0.0, 2.0, 0.75));
+        for shape in [&plane, &block, &triangles] {
+            assert_eq!(out(shape, [0.0, 1.9, 0.75]), top);
+            assert_eq!(out(shape, [0.0, 2.1, 0.75]), None, "it is outside");
+        }
+        assert_eq!(out(&block, [-0.3, 1.0, 0.75]), None, "it is 0.25 deep");
+        let (inner, outer) = ([0.0, 1.9, 0.0], [0.0, 2.1, 0.0]);
+        for (hollow, inside, outside) in [(false, inner, outer), (true, outer, inner)] {
+            let foot = out(&ball(hollow), inside).unwrap();
+            assert!(foot.distance(DVec3::new(0.0, 2.0, 0.0)) < 1e-12, "{foot}");
+            assert_eq!(out(&ball(hollow), outside), None);
         }
     }
 

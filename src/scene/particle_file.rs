@@ -144,7 +144,7 @@ pub(super) fn columns_of(attribute: &str, components: usize) -> Vec<String> {
 }
 
 /// A column's name, and one number per row.
-pub(super) type NamedColumn = (String, Vec<f64>);
+pub(crate) type NamedColumn = (String, Vec<f64>);
 
 /// A particle file of any format, read but not yet checked.
 pub(super) struct Table {

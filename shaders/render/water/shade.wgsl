@@ -69,7 +69,9 @@ fn water_color(place: vec2i, distance: f32) -> vec4f {
     let thickness = thickness_at(pixel);
 
     let facing = saturate(dot(normal, toward));
-    let fresnel = F0 + (1.0 - F0) * pow(1.0 - facing, 5.0);
+    // Where there is less water than a particle's, spheres end, whose rims would shine.
+    let whole = smoothstep(0.0, water.spacing, thickness);
+    let fresnel = whole * (F0 + (1.0 - F0) * pow(1.0 - facing, 5.0));
     let mirrored = reflect(-toward, normal);
     let reflection = surroundings(point, mirrored);
 
@@ -80,7 +82,7 @@ fn water_color(place: vec2i, distance: f32) -> vec4f {
     // Even a film of water is no less blue than one as thick as a particle.
     let within = water.scatter.rgb * day * (1.0 - passed * exp(-water.absorption.rgb * water.spacing));
 
-    let glint = 0.8 * pow(saturate(dot(mirrored, picture.light.xyz)), 120.0);
+    let glint = 0.8 * whole * pow(saturate(dot(mirrored, picture.light.xyz)), 120.0);
     let color = mix(within + beyond.rgb * passed, reflection, fresnel) + glint;
     let alpha = 1.0 - (1.0 - fresnel) * dot(passed, vec3f(0.3333)) * (1.0 - beyond.a);
     return vec4f(shoulder(color), alpha);

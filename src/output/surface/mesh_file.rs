@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use super::SurfaceMesh;
+use super::{SurfaceMesh, VertexColumn, glb};
 
-/// A format of meshes. To add one: a row of [`MESH_FORMATS`].
+/// A format of meshes. To add one: a row of [`MESH_FORMATS`], and how its files begin in `src/output/folder.rs`.
 #[derive(Debug)]
 pub struct MeshFormat {
     /// On the command line, and the ending of a file's name.
@@ -16,46 +16,58 @@ pub struct MeshFormat {
 pub const MESH_FORMATS: &[MeshFormat] = &[
     MeshFormat {
         name: "ply",
-        about: "binary, in single precision",
+        about: "binary, in single precision, with columns: Blender, MeshLab, Open3D",
         encode: ply,
     },
     MeshFormat {
         name: "obj",
-        about: "text, in double precision",
+        about: "text, in double precision, without columns",
         encode: obj,
+    },
+    MeshFormat {
+        name: "glb",
+        about: "binary glTF 2.0, with columns: Blender, three.js, Windows, macOS",
+        encode: glb::encode,
     },
 ];
 
 fn ply(mesh: &SurfaceMesh) -> Vec<u8> {
-    let normals = if mesh.normals.is_empty() {
-        ""
-    } else {
-        "property float nx\nproperty float ny\nproperty float nz\n"
-    };
+    let mut properties = vec!["x".to_owned(), "y".into(), "z".into()];
+    if !mesh.normals.is_empty() {
+        properties.extend(["nx", "ny", "nz"].map(String::from));
+    }
+    properties.extend(mesh.columns.iter().flat_map(column_names));
+    let properties: String = properties
+        .iter()
+        .map(|name| format!("property float {name}\n"))
+        .collect();
     let mut bytes = format!(
-        "ply\nformat binary_little_endian 1.0\ncomment Sliceflow\nelement vertex {}\nproperty float x\n\
-         property float y\nproperty float z\n{normals}element face {}\nproperty list uchar int vertex_indices\n\
-         end_header\n",
+        "ply\nformat binary_little_endian 1.0\ncomment Sliceflow\nelement vertex {}\n{properties}element face {}\n\
+         property list uchar int vertex_indices\nend_header\n",
         mesh.vertices.len(),
         mesh.triangles.len()
     )
     .into_bytes();
     for (i, vertex) in mesh.vertices.iter().enumerate() {
+        let place = vertex.as_vec3().to_array().into_iter();
         let normal = mesh.normals.get(i).into_iter().flatten().copied();
-        bytes.extend(
-            vertex
-                .as_vec3()
-                .to_array()
-                .into_iter()
-                .chain(normal)
-                .flat_map(f32::to_le_bytes),
-        );
+        let values = mesh.columns.iter().flat_map(|column| column.row(i)).copied();
+        bytes.extend(place.chain(normal).chain(values).flat_map(f32::to_le_bytes));
     }
     for triangle in &mesh.triangles {
         bytes.push(3);
         bytes.extend(triangle.iter().flat_map(|index| index.to_le_bytes()));
     }
     bytes
+}
+
+/// Properties that a column becomes; a vector's components are named as those of particle files.
+fn column_names(column: &VertexColumn) -> Vec<String> {
+    if column.width == 1 {
+        return vec![column.name.clone()];
+    }
+    let initial = column.name.chars().next().unwrap_or_default();
+    ["x", "y", "z"].map(|axis| format!("{initial}{axis}")).into()
 }
 
 fn obj(mesh: &SurfaceMesh) -> Vec<u8> {

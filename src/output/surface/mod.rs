@@ -1,30 +1,33 @@
 //! Surfaces of a run's particles: marching cubes over a smoothed density (Löschner et al. 2023, `splashsurf_lib`), a
 //! mesh a frame.
 
+mod glb;
 mod mesh_file;
+mod reconstruct;
 mod sequence;
+mod walls;
 
 use std::path::Path;
 use std::sync::Mutex;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use splashsurf_lib::nalgebra::Vector3;
-use splashsurf_lib::{Parameters, reconstruct_surface};
 
 use super::bar::Bar;
 use super::folder::is_surface;
+use super::read_back::Snapshot;
 use super::{disk, interrupt};
 use crate::error::{Error, Result};
 use crate::files;
-use crate::scene::Dimensions;
-use crate::scene::particle_file;
 
 pub use mesh_file::{MESH_FORMATS, MeshFormat};
+use reconstruct::{Cloud, reconstruct};
 pub use sequence::Sequence;
+pub use walls::Walls;
 
 /// Cubes along a side of all particles.
 const MOST_CUBES: f64 = 1e6;
+const UNREADABLE: &str = "run the scene again, or remove that frame's files";
 
 /// How a surface is made. Lengths are in particle radii, as splashsurf counts them.
 #[derive(Debug, Clone)]
@@ -37,7 +40,13 @@ pub struct SurfaceSettings {
     pub cube_size: f64,
     /// Density on the surface, as a share of the rest density.
     pub threshold: f64,
+    /// Rounds of Laplacian smoothing, weighted so that splashes keep their shape.
+    pub smoothing: u32,
+    /// Whether vertices beside the same corner of a cube are joined.
+    pub cleanup: bool,
     pub normals: bool,
+    /// Columns of the particles that vertices get too; velocities where there are some when left out.
+    pub columns: Option<Vec<String>>,
     pub format: &'static MeshFormat,
     /// Whether meshes that are there may be replaced.
     pub force: bool,
@@ -58,13 +67,33 @@ pub struct Made {
 struct SurfaceMesh {
     /// Metres.
     vertices: Vec<DVec3>,
-    /// Of length one, outward; one a vertex, or none.
+    /// Of length one, outward; one per vertex, or none.
     normals: Vec<[f32; 3]>,
+    columns: Vec<VertexColumn>,
     triangles: Vec<[u32; 3]>,
 }
 
+/// One column of the particles, at vertices or at the particles themselves.
+struct VertexColumn {
+    name: String,
+    /// Numbers per vertex: 3 of a vector, 1 of all others.
+    width: usize,
+    values: Vec<f32>,
+}
+
+impl VertexColumn {
+    fn row(&self, vertex: usize) -> &[f32] {
+        &self.values[vertex * self.width..][..self.width]
+    }
+}
+
 /// Makes a mesh of each frame that has particle files. Ends early, with what is done, after Ctrl-C.
-pub fn make_surfaces(recorded: &Sequence, out: &Path, settings: &SurfaceSettings) -> Result<Made> {
+pub fn make_surfaces(
+    recorded: &Sequence,
+    walls: &Walls,
+    out: &Path,
+    settings: &SurfaceSettings,
+) -> Result<Made> {
     let target = |frame: u32| out.join(format!("surface_{frame:06}.{}", settings.format.name));
     let reach = 2.0 * settings.smoothing_length;
     if settings.cube_size > reach {
@@ -118,7 +147,9 @@ pub fn make_surfaces(recorded: &Sequence, out: &Path, settings: &SurfaceSettings
         if interrupt::asked() {
             return Ok(());
         }
-        let triangles = match surface(file, recorded.radius, settings)? {
+        let radius = settings.radius.unwrap_or(recorded.radius);
+        let cloud = read(*frame, file, settings.columns.as_deref())?;
+        let triangles = match surface(&cloud, file, radius, walls, settings)? {
             Some(mesh) => {
                 disk::write(&target(*frame), &(settings.format.encode)(&mesh))?;
                 mesh.triangles.len() as u64
@@ -149,24 +180,73 @@ pub fn make_surfaces(recorded: &Sequence, out: &Path, settings: &SurfaceSettings
     Ok(made)
 }
 
-fn surface(file: &Path, recorded: f64, settings: &SurfaceSettings) -> Result<Option<SurfaceMesh>> {
-    let particles = particle_file::load(file, Dimensions::Three)
-        .map_err(|what| Error::usage(what, "run the scene again, or remove that frame's files"))?;
-    // Single precision around the particles' own corner, so that nothing is lost far from zero.
-    let origin = particles
-        .position
-        .iter()
-        .copied()
-        .reduce(DVec3::min)
-        .unwrap_or_default();
-    let local: Vec<Vector3<f32>> = particles
-        .position
-        .iter()
-        .map(|p| Vector3::from((*p - origin).as_vec3().to_array()))
-        .collect();
-    let radius = settings.radius.unwrap_or(recorded) as f32;
-    let extent = local.iter().flatten().copied().fold(0.0, f32::max);
-    let cubes = f64::from(extent) / (settings.cube_size * f64::from(radius));
+/// Reads a frame's particles.
+fn read(frame: u32, file: &Path, columns: Option<&[String]>) -> Result<Cloud> {
+    let unreadable = |what: String| Error::file(file, "make a surface of", what, UNREADABLE);
+    let snapshot = Snapshot::read(file)?;
+    let place = snapshot.column("position").filter(|column| column.width == 3);
+    let place = place.ok_or_else(|| unreadable("it has no positions in space".into()))?;
+    if let Some(row) = place
+        .values
+        .chunks_exact(3)
+        .position(|p| !p.iter().all(|x| x.is_finite()))
+    {
+        return Err(unreadable(format!(
+            "the position of particle {row} is not a number"
+        )));
+    }
+    if place.values.is_empty() {
+        return Err(unreadable("it has no particles".into()));
+    }
+    let mut found = Vec::new();
+    for name in columns.unwrap_or(&["velocity".to_owned()]) {
+        match snapshot.column(name) {
+            Some(column) if [1, 3].contains(&column.width) && column.particles() == place.particles() => {
+                found.push(VertexColumn {
+                    name: name.clone(),
+                    width: column.width,
+                    values: column.values.iter().map(|&value| value as f32).collect(),
+                })
+            }
+            Some(column) => {
+                return Err(unreadable(format!(
+                    "its column `{name}` has {} rows of {} numbers",
+                    column.particles(),
+                    column.width
+                )));
+            }
+            // Velocities come along where there are some.
+            _ if columns.is_none() => {}
+            _ => {
+                let known: Vec<_> = snapshot
+                    .columns
+                    .iter()
+                    .map(|column| column.name.as_str())
+                    .collect();
+                return Err(Error::usage(
+                    format!("{} has no column `{name}`", file.display()),
+                    format!("it has {}; `run --columns` says what it holds", known.join(", ")),
+                ));
+            }
+        }
+    }
+    Ok(Cloud {
+        frame,
+        position: place.values.chunks_exact(3).map(DVec3::from_slice).collect(),
+        columns: found,
+    })
+}
+
+fn surface(
+    cloud: &Cloud,
+    file: &Path,
+    radius: f64,
+    walls: &Walls,
+    settings: &SurfaceSettings,
+) -> Result<Option<SurfaceMesh>> {
+    let ends =
+        [DVec3::min, DVec3::max].map(|pick| cloud.position.iter().copied().reduce(pick).unwrap_or_default());
+    let cubes = (ends[1] - ends[0]).max_element() / (settings.cube_size * radius);
     if cubes > MOST_CUBES || cubes.is_nan() {
         return Err(Error::file(
             file,
@@ -175,46 +255,14 @@ fn surface(file: &Path, recorded: f64, settings: &SurfaceSettings) -> Result<Opt
             format!("make cubes larger with --cube-size or --radius: at most {MOST_CUBES:e} along a side"),
         ));
     }
-    let mut parameters = Parameters::new_relative(
-        radius,
-        2.0 * settings.smoothing_length as f32,
-        settings.cube_size as f32,
-    );
-    parameters.iso_surface_threshold = settings.threshold as f32;
-    let mesh = reconstruct_surface::<i64, f32>(&local, &parameters)
-        .map_err(|reason| {
-            Error::file(
-                file,
-                "make a surface of",
-                reason,
-                "larger cubes (--cube-size) need less memory",
-            )
-        })?
-        .mesh;
-    if mesh.triangles.is_empty() {
-        return Ok(None);
-    }
-    let normals = match settings.normals {
-        true => mesh
-            .par_vertex_normals()
-            .iter()
-            .map(|n| [n.x, n.y, n.z])
-            .collect(),
-        false => Vec::new(),
-    };
-    Ok(Some(SurfaceMesh {
-        vertices: mesh
-            .vertices
-            .iter()
-            .map(|v| DVec3::new(v.x.into(), v.y.into(), v.z.into()) + origin)
-            .collect(),
-        normals,
-        triangles: mesh
-            .triangles
-            .iter()
-            .map(|t| t.map(|index| index as u32))
-            .collect(),
-    }))
+    let larger = "larger cubes (--cube-size) need less memory";
+    // splashsurf orders vertices as its threads come; of one thread the bytes are the same every time. Frames are made side
+    // by side instead.
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let alone = alone.map_err(|reason| Error::file(file, "make a surface of", reason, larger))?;
+    alone
+        .install(|| reconstruct(cloud, radius, walls, settings))
+        .map_err(|reason| Error::file(file, "make a surface of", reason, larger))
 }
 
 #[cfg(test)]

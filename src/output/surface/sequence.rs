@@ -11,7 +11,7 @@ use crate::output::particles::found::{POSITIONS, find};
 /// A run's particle files.
 #[derive(Debug)]
 pub struct Sequence {
-    /// Frames that have files, in order, and the file with the positions.
+    /// Frames that have files, in order, and the file or folder of arrays.
     pub frames: Vec<(u32, PathBuf)>,
     /// Frames that the run was to have.
     pub wanted: u64,
@@ -58,14 +58,11 @@ impl Sequence {
     }
 }
 
-/// Frames whose particle files have positions, and the file with them.
+/// Frames whose particle files have positions.
 fn frames(run: &Path) -> Result<Vec<(u32, PathBuf)>> {
-    let with_positions = |(frame, path): (u32, PathBuf)| match path.is_dir() {
-        true => {
-            let positions = path.join(POSITIONS);
-            positions.is_file().then_some((frame, positions))
-        }
-        false => Some((frame, path)),
-    };
-    Ok(find(run)?.into_iter().filter_map(with_positions).collect())
+    let has_positions = |path: &PathBuf| !path.is_dir() || path.join(POSITIONS).is_file();
+    Ok(find(run)?
+        .into_iter()
+        .filter(|(_, path)| has_positions(path))
+        .collect())
 }

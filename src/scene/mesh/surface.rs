@@ -55,6 +55,13 @@ impl Surface {
 
     /// Metres from `point` to the surface, or `limit` if it is farther than that.
     pub fn distance(&self, point: DVec3, limit: f64) -> f64 {
+        self.nearest(point, limit)
+            .map_or(limit, |foot| point.distance(foot).min(limit))
+    }
+
+    /// The point of the surface that is nearest to `point`, if it is nearer than `limit`, metres.
+    pub fn nearest(&self, point: DVec3, limit: f64) -> Option<DVec3> {
+        let mut found = None;
         let mut nearest = limit * limit;
         let mut open = Vec::new();
         if let Some(root) = self.nodes.first() {
@@ -68,7 +75,10 @@ impl Surface {
                 Link::Triangles(first, end) => {
                     for &triangle in &self.triangles[first..end] {
                         let foot = closest_point(triangle, point);
-                        nearest = nearest.min((point - foot).length_squared());
+                        let away = (point - foot).length_squared();
+                        if away < nearest {
+                            (nearest, found) = (away, Some(foot));
+                        }
                     }
                 }
                 Link::SecondChild(second) => {
@@ -82,7 +92,7 @@ impl Surface {
                 }
             }
         }
-        nearest.sqrt().min(limit)
+        found
     }
 
     /// The inside along the line through all points with this y and z.
