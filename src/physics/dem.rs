@@ -14,7 +14,7 @@ use crate::neighbors::grid::voxel_reach;
 use crate::scene::field::{contact_slots, contact_words};
 use crate::scene::friction::{self, Friction, REACH};
 use crate::scene::model::{ContactLaw, Dashpot, Integrator, RollingResistance, Wall};
-use crate::scene::{self, Dimensions, Matter, Scene};
+use crate::scene::{self, ColliderShape, Dimensions, Matter, Scene};
 
 /// Stands for a wall that is not there, metres; far from every f32 position and safely finite when subtracted.
 const FAR: f32 = 1e30;
@@ -61,6 +61,10 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     let given = grains(&scene.matter);
     let contact_walls = has_wall(scene, Wall::Contact);
     let clamp_walls = has_wall(scene, Wall::Clamp);
+    let has_cylinder = scene
+        .colliders
+        .iter()
+        .any(|collider| matches!(collider.shape, ColliderShape::Cylinder { .. }));
     // At some time during the run.
     let ever = |positive: fn(&scene::Contact) -> bool| {
         scene.matters().any(|matter| positive(&grains(matter).contact))
@@ -71,11 +75,17 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         .constant("COLLIDER_PLANE", Collider::PLANE)
         .constant("COLLIDER_BOX", Collider::BOX)
         .constant("COLLIDER_MESH", Collider::MESH)
+        .constant("COLLIDER_CYLINDER", Collider::CYLINDER)
         .flag("contact_walls", contact_walls)
         .flag("clamp_walls", clamp_walls)
         .flag("colliders", !obstacles.colliders.is_empty())
         .flag("moving_colliders", obstacles.moving)
         .flag("mesh_colliders", !obstacles.field.is_empty())
+        .flag("cylinders", has_cylinder)
+        .flag(
+            "spinning_colliders",
+            scene.colliders.iter().any(|c| c.spin != Vec3::ZERO),
+        )
         .flag("rotation", given.contact.friction.is_some())
         .flag("normal_dashpot", given.contact.dashpot == Dashpot::Normal)
         .flag("shear", ever(|c| c.shear > 0.0))

@@ -224,6 +224,8 @@ shared_struct! {
         pub b: [f32; 4],
         pub offset: [f32; 4],
         pub velocity: [f32; 4],
+        /// rad/s.
+        pub spin: [f32; 4],
     }
 }
 
@@ -232,6 +234,7 @@ impl Collider {
     pub const BOX: u32 = 1;
     pub const SPHERE: u32 = 2;
     pub const MESH: u32 = 3;
+    pub const CYLINDER: u32 = 4;
 }
 
 shared_struct! {

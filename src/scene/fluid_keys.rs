@@ -13,12 +13,15 @@ pub fn check(file: &SceneFile, report: &mut Report) {
         of_fluids(file, report);
     }
     for (i, collider) in file.colliders.iter().enumerate() {
-        let round = matches!(collider.shape, ColliderShape::Sphere { .. });
-        if collider.spin.is_some() && file.fluid.is_some() && !round {
+        let round = matches!(
+            collider.shape,
+            ColliderShape::Sphere { .. } | ColliderShape::Cylinder { .. }
+        );
+        if collider.spin.is_some() && !round {
             report.problem(
                 format!("colliders[{i}].spin"),
-                "only a sphere can turn and stay where it is",
-                "leave it out, or make the shape a sphere",
+                "only a sphere or a cylinder can turn and stay where it is",
+                "leave it out, or make the shape a sphere or a cylinder",
             );
         }
     }
@@ -131,11 +134,6 @@ fn of_fluids(file: &SceneFile, report: &mut Report) {
     for (i, emitter) in file.emitters.iter().enumerate() {
         if emitter.material.is_some() {
             problem(format!("emitters[{i}].material"));
-        }
-    }
-    for (i, collider) in file.colliders.iter().enumerate() {
-        if collider.spin.is_some() {
-            problem(format!("colliders[{i}].spin"));
         }
     }
     for (name, _) in file

@@ -328,6 +328,8 @@ pub struct Collider {
     pub shape: ColliderShape,
     /// Seconds and the offset from where the shape stands, metres; ascending in time.
     pub path: Vec<(f64, Vec3)>,
+    /// How its surface turns about its center or axis while the shape stays where it is, rad/s.
+    pub spin: Vec3,
     /// sRGB, 0 to 1.
     pub color: [f32; 3],
     pub visible: bool,
@@ -349,6 +351,13 @@ pub enum ColliderShape {
         center: Vec3,
         radius: f32,
         /// Solid outside instead of inside.
+        hollow: bool,
+    },
+    Cylinder {
+        from: Vec3,
+        to: Vec3,
+        radius: f32,
+        /// Solid outside, without end in both directions.
         hollow: bool,
     },
     Mesh(mesh::Mesh),

@@ -472,8 +472,8 @@ pub struct Collider {
     /// A motion to and fro, on top of what its path does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub oscillation: Option<Oscillation>,
-    /// How its surface turns about the shape's center while the shape stays where it is, rad/s, counter-clockwise
-    /// (about z in 3D); for spheres in fluids.
+    /// How its surface turns while the shape stays where it is, rad/s, counter-clockwise: of a sphere about its center (about z
+    /// in 3D), of a cylinder about its axis, as seen from its end `to`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1e9, max = 1e9))]
     pub spin: Option<f64>,
@@ -518,6 +518,20 @@ pub enum ColliderShape {
         #[schemars(range(min = 1e-9, max = 1e6))]
         radius: f64,
         /// Solid outside instead of inside: a round vessel.
+        #[serde(default)]
+        hollow: bool,
+    },
+    /// A cylinder in any direction; 3D only.
+    Cylinder {
+        /// Center of the first end, metres.
+        from: Coordinates,
+        /// Center of the other end, metres.
+        to: Coordinates,
+        /// Radius, metres.
+        #[schemars(range(min = 1e-9, max = 1e6))]
+        radius: f64,
+        /// Solid outside instead of inside: a tube or drum, which goes on without end in both directions. Pictures show it
+        /// from `from` to `to`.
         #[serde(default)]
         hollow: bool,
     },

@@ -217,15 +217,12 @@ fn fastest_wall(file: &SceneFile, colliders: &[super::Collider]) -> f64 {
     let sides = sides.map(|given| vector(&given.0).length());
     let moves = colliders.iter().flat_map(|collider| collider.path.windows(2));
     let moves = moves.map(|pair| f64::from(pair[0].1.distance(pair[1].1)) / (pair[1].0 - pair[0].0));
-    let spins = file
-        .colliders
-        .iter()
-        .filter_map(|collider| match &collider.shape {
-            super::model::ColliderShape::Sphere { radius, .. } => {
-                collider.spin.map(|spin| (spin * radius).abs())
-            }
-            _ => None,
-        });
+    let spins = colliders.iter().filter_map(|collider| match &collider.shape {
+        super::ColliderShape::Sphere { radius, .. } | super::ColliderShape::Cylinder { radius, .. } => {
+            Some(f64::from(collider.spin.length() * radius))
+        }
+        _ => None,
+    });
     let emitters = file
         .emitters
         .iter()
