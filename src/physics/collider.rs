@@ -50,7 +50,7 @@ impl Obstacles {
     fn describe(&mut self, scene: &Scene, collider: &scene::Collider) -> Collider {
         Collider {
             offset: packed(offset_at(&collider.path, 0.0)),
-            spin: packed(collider.spin),
+            spin: collider.spin.extend(collider.material as f32).to_array(),
             ..self.describe_shape(scene, collider)
         }
     }

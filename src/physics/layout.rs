@@ -128,6 +128,9 @@ shared_struct! {
     pub struct ContactWalls {
         pub lower: [f32; 4],
         pub upper: [f32; 4],
+        /// Numbers of the sides' materials.
+        pub lower_materials: [f32; 4],
+        pub upper_materials: [f32; 4],
     }
 }
 
@@ -178,7 +181,9 @@ shared_struct! {
         pub rolling_damping: f32,
         /// kg·m².
         pub rolling_inertia: f32,
-        pub _pad: [u32; 3],
+        /// Greatest pull, N.
+        pub cohesion: f32,
+        pub _pad: [u32; 2],
     }
 }
 
@@ -201,7 +206,8 @@ shared_struct! {
         pub global_damping: f32,
         /// More than any coordinate, metres.
         pub farthest: f32,
-        pub _pad: u32,
+        /// Metres.
+        pub cohesion_range: f32,
     }
 }
 
@@ -224,7 +230,7 @@ shared_struct! {
         pub b: [f32; 4],
         pub offset: [f32; 4],
         pub velocity: [f32; 4],
-        /// rad/s.
+        /// rad/s; beside it, the number of its material.
         pub spin: [f32; 4],
     }
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use glam::{DVec2, DVec3, Vec3};
 
 use super::frame::{Frame, LARGEST_COORDINATE, Report};
+use super::grain_materials;
 use super::mesh::Mesh;
 use super::mesh::surface::Surface;
 use super::motion::{MOST_PIECES, Wave, smooth_path};
@@ -47,6 +48,12 @@ pub fn colliders(
             name: given.name.clone(),
             path: motion(&path, given, file.radius(), end, frame, report),
             spin: spin(&shape, given.spin.unwrap_or(0.0)),
+            material: grain_materials::number(
+                &format!("{path}.material"),
+                given.material.as_deref(),
+                file,
+                report,
+            ),
             color: color.map(|channel| f32::from(channel) / 255.0),
             visible: given.visible,
             shape,

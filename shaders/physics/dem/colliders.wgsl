@@ -23,7 +23,7 @@ struct Collider {
     b: vec4f, // plane: normal; box: upper corner (m); mesh: nodes along x, y, z; cylinder: center of the other end (m)
     offset: vec4f, // where it is now, at the first step of the segment, m
     velocity: vec4f, // m/s
-    spin: vec4f, // of its surface about a, rad/s
+    spin: vec4f, // of its surface about a, rad/s; w: number of its material
 }
 
 var<uniform> colliders: array<Collider, COLLIDERS>;
@@ -193,7 +193,7 @@ fn with_collider(before: ContactSum, c: u32, x: Vector, v: Vector) -> ContactSum
     let overlap = radius - nearest.distance;
     let touch =
         Touch(collider_key(c), -nearest.outwards, overlap, nearest.distance, approach, Rotation(), Vector(0.0));
-    return with_touch(before, touch, contact.walls);
+    return with_touch(before, touch, wall_pairing(before, u32(collider.spin.w)));
 #else
     if nearest.distance >= radius {
         return before;

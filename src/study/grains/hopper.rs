@@ -111,12 +111,12 @@ pub fn hopper(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
     page.picture("grains_hopper.png", "Flow against the opening.", |path| {
         chart.save(path)
     })?;
-    if let Some(scene) = shown {
-        if let Some(picture) = bench.picture(&scene, View::Scene, scene.time.frames / 2)? {
-            page.picture("grains_hopper_flow.png", "A bin that empties.", |path| {
-                crate::output::write_file(path, &crate::output::encode_png(picture, path)?)
-            })?;
-        }
+    if let Some(scene) = shown
+        && let Some(picture) = bench.picture(&scene, View::Scene, scene.time.frames / 2)?
+    {
+        page.picture("grains_hopper_flow.png", "A bin that empties.", |path| {
+            crate::output::write_file(path, &crate::output::encode_png(picture, path)?)
+        })?;
     }
     page.paragraph(format!(
         "Bins with a flat floor, friction 0.3; the opening is a slit in 2D, and a square in 3D. The flow \
