@@ -54,9 +54,9 @@ fn sum_contacts(i: u32) -> ContactSum {
     sum.rotation = unpack_rotation(angular_velocity[i]);
     sum.rest = rest_of(position[i]);
 #end
-#end
 #if mixed_grains
     sum.material = material[i];
+#end
 #end
     let x = unpack(position[i]);
     let v = unpack(velocity[i]);

@@ -27,9 +27,9 @@ fn force_on(i: u32) -> Vector {
     sum.grain = i;
     sum.rotation = unpack_rotation(angular_velocity[i]);
     sum.rest = rest_of(position[i]);
-#end
 #if mixed_grains
     sum.material = material[i];
+#end
 #end
     if sensed.target_body >= SIDE_TARGETS {
 #if contact_walls
