@@ -26,7 +26,8 @@ pub struct Grains {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-9, max = 1e3))]
     pub contact_time: Option<f64>,
-    /// Young's modulus of the grains' material, Pa, with `hertz`. Walls are rigid.
+    /// Young's modulus of the grains' material, Pa, with `hertz`. Walls are rigid unless their material says
+    /// otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1.0, max = 1e13))]
     pub young_modulus: Option<f64>,
