@@ -179,7 +179,7 @@ fn restitution_and_duration_are_those_of_the_oscillator() {
         given["grains"]["restitution"] = json!(e);
         let scene = valid(&given, &[]);
         assert_near(scene.grains().unwrap().mass, mass);
-        let contact = scene.grains().unwrap().contact;
+        let contact = scene.grains().unwrap().contact.clone();
         let (after, duration) = rebound(contact.spring, contact.damping, mass / 2.0);
         assert!((after - e).abs() < 1e-3, "two grains: {after} for {e}");
         assert!((scene.time.contact_duration.unwrap() / duration - 1.0).abs() < 1e-3);
@@ -192,7 +192,7 @@ fn restitution_and_duration_are_those_of_the_oscillator() {
 fn a_damping_is_taken_as_given() {
     let mut given = block();
     given["grains"] = json!({ "radius": 0.05, "spring": 1000, "damping": 2.5 });
-    let contact = valid(&given, &[]).grains().unwrap().contact;
+    let contact = valid(&given, &[]).grains().unwrap().contact.clone();
     assert_eq!((contact.damping, contact.wall_damping), (2.5, 2.5));
 }
 
@@ -257,7 +257,7 @@ fn the_scenes_step_is_kept_or_refused_with_one_that_fits() {
 fn strong_damping_shortens_the_step() {
     let time = valid(&block(), &["grains.shear=1000"]).time;
     assert_eq!(time.limited_by, "damping");
-    let contact = valid(&block(), &["grains.shear=1000"]).grains().unwrap().contact;
+    let contact = valid(&block(), &["grains.shear=1000"]).grains().unwrap().contact.clone();
     let share = (contact.damping + contact.shear) * time.step / (ball_mass() / 2.0);
     assert!(share <= 0.5 && share > 0.49, "{share}");
 }
@@ -501,12 +501,12 @@ fn events_keep_what_they_do_not_change() {
         .iter()
         .filter_map(|scheduled| match &scheduled.action {
             Action::SetParameters { gravity, matter } => {
-                Some((scheduled.time, *gravity, matter.grains()?.contact))
+                Some((scheduled.time, *gravity, matter.grains()?.contact.clone()))
             }
             Action::Add(_) => None,
         })
         .collect();
-    let [(first, gravity, stiff), (second, turned, later)] = parameters[..] else {
+    let [(first, gravity, ref stiff), (second, turned, ref later)] = parameters[..] else {
         panic!("{parameters:?}");
     };
     assert_eq!((first, second), (0.5, 1.5));

@@ -183,6 +183,9 @@ fn plans_with_sensors() -> Vec<Plan> {
 
 /// Plans of grains that rotate, which together use every flag and role.
 fn friction_plans() -> Vec<Plan> {
+    const TUBE: &str =
+        r#"colliders=[{"shape":{"kind":"cylinder","from":[0,-1,0],"to":[0,1,0],"radius":2,"hollow":true}}]"#;
+    let steel = r#"grains.materials=[{"name":"steel","friction":0.1}]"#;
     let mut plans = Vec::new();
     for dimensions in [2, 3] {
         let sensors = sensors(dimensions, false);
@@ -199,8 +202,15 @@ fn friction_plans() -> Vec<Plan> {
                 "grains.spring=null",
                 "grains.young_modulus=1e6",
             ],
+            &[
+                steel,
+                "grains.cohesion=0.01",
+                "domain.side_materials={\"y_min\":\"steel\"}",
+            ],
+            &[steel, "bodies[0].material=steel", "colliders[0].spin=1"],
+            &[TUBE],
         ] {
-            if dimensions == 2 && more[0] == "grains.law=hertz" {
+            if dimensions == 2 && (more[0] == "grains.law=hertz" || more[0] == TUBE) {
                 continue;
             }
             let given = [

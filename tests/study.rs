@@ -419,9 +419,9 @@ fn speed_is_weighed_against_error() {
 #[test]
 fn grains_have_a_page_with_the_same_figures_as_its_json() {
     let folder = tempfile::tempdir().expect("a folder");
-    let cases = ["restitution", "oblique", "heap"];
+    let cases = ["restitution", "oblique", "heap", "hopper"];
     let (page, json) = run_cases("grains", &cases, folder.path());
-    check(folder.path(), &page, &json, 4);
+    check(folder.path(), &page, &json, 6);
     for row in json["restitution"].as_array().expect("rows") {
         let error = row["largest error of e"].as_f64().expect("a number");
         let steps = row["steps per contact"].as_f64().expect("a number");
@@ -434,6 +434,10 @@ fn grains_have_a_page_with_the_same_figures_as_its_json() {
         .map(|row| row["angle, degrees"].as_f64().expect("a number"))
         .collect();
     assert!(angles[0] < angles[1], "friction makes heaps steeper: {angles:?}");
+    // The bar is 0.15 at the study's usual size; this is a small bin.
+    let exponent = &json["hopper_exponent"][0];
+    let error = exponent["error"].as_f64().expect("a number");
+    assert!(error.abs() < 0.3, "{exponent}");
 }
 
 #[test]

@@ -48,21 +48,25 @@ impl Obstacles {
     }
 
     fn describe(&mut self, scene: &Scene, collider: &scene::Collider) -> Collider {
-        let packed = |v: Vec3| [v.x, v.y, v.z, 0.0];
-        let offset = packed(offset_at(&collider.path, 0.0));
+        Collider {
+            offset: packed(offset_at(&collider.path, 0.0)),
+            spin: collider.spin.extend(collider.material as f32).to_array(),
+            ..self.describe_shape(scene, collider)
+        }
+    }
+
+    fn describe_shape(&mut self, scene: &Scene, collider: &scene::Collider) -> Collider {
         match &collider.shape {
             ColliderShape::Plane { point, normal } => Collider {
                 kind: Collider::PLANE,
                 a: packed(*point),
                 b: packed(*normal),
-                offset,
                 ..Default::default()
             },
             ColliderShape::Box { min, max } => Collider {
                 kind: Collider::BOX,
                 a: packed(*min),
                 b: packed(*max),
-                offset,
                 ..Default::default()
             },
             ColliderShape::Sphere {
@@ -73,7 +77,18 @@ impl Obstacles {
                 kind: Collider::SPHERE,
                 radius: if *hollow { -radius } else { *radius },
                 a: packed(*center),
-                offset,
+                ..Default::default()
+            },
+            ColliderShape::Cylinder {
+                from,
+                to,
+                radius,
+                hollow,
+            } => Collider {
+                kind: Collider::CYLINDER,
+                radius: if *hollow { -radius } else { *radius },
+                a: packed(*from),
+                b: packed(*to),
                 ..Default::default()
             },
             ColliderShape::Mesh(mesh) => {
@@ -108,7 +123,6 @@ impl Obstacles {
                         field.size[2] as f32,
                         0.0,
                     ],
-                    offset,
                     ..Default::default()
                 };
                 self.field.extend_from_slice(&field.values);
@@ -116,6 +130,10 @@ impl Obstacles {
             }
         }
     }
+}
+
+fn packed(v: Vec3) -> [f32; 4] {
+    v.extend(0.0).to_array()
 }
 
 /// Offset of a path at a time, seconds and metres; piecewise linear, at rest before its first and after its last point.

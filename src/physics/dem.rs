@@ -12,9 +12,9 @@ use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
 use crate::neighbors::Grid;
 use crate::neighbors::grid::voxel_reach;
 use crate::scene::field::{contact_slots, contact_words};
-use crate::scene::friction::{self, Friction, REACH};
+use crate::scene::friction::{self, Friction};
 use crate::scene::model::{ContactLaw, Dashpot, Integrator, RollingResistance, Wall};
-use crate::scene::{self, Dimensions, Matter, Scene};
+use crate::scene::{self, ColliderShape, Dimensions, Matter, Scene};
 
 /// Stands for a wall that is not there, metres; far from every f32 position and safely finite when subtracted.
 const FAR: f32 = 1e30;
@@ -61,6 +61,10 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     let given = grains(&scene.matter);
     let contact_walls = has_wall(scene, Wall::Contact);
     let clamp_walls = has_wall(scene, Wall::Clamp);
+    let has_cylinder = scene
+        .colliders
+        .iter()
+        .any(|collider| matches!(collider.shape, ColliderShape::Cylinder { .. }));
     // At some time during the run.
     let ever = |positive: fn(&scene::Contact) -> bool| {
         scene.matters().any(|matter| positive(&grains(matter).contact))
@@ -71,11 +75,17 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         .constant("COLLIDER_PLANE", Collider::PLANE)
         .constant("COLLIDER_BOX", Collider::BOX)
         .constant("COLLIDER_MESH", Collider::MESH)
+        .constant("COLLIDER_CYLINDER", Collider::CYLINDER)
         .flag("contact_walls", contact_walls)
         .flag("clamp_walls", clamp_walls)
         .flag("colliders", !obstacles.colliders.is_empty())
         .flag("moving_colliders", obstacles.moving)
         .flag("mesh_colliders", !obstacles.field.is_empty())
+        .flag("cylinders", has_cylinder)
+        .flag(
+            "spinning_colliders",
+            scene.colliders.iter().any(|c| c.spin != Vec3::ZERO),
+        )
         .flag("rotation", given.contact.friction.is_some())
         .flag("normal_dashpot", given.contact.dashpot == Dashpot::Normal)
         .flag("shear", ever(|c| c.shear > 0.0))
@@ -87,7 +97,12 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     let buffers = &mut solver.buffers;
     let size = match &given.contact.friction {
         Some(friction) => {
-            set_friction(scene, friction, variant);
+            set_friction(scene, given, friction, variant);
+            if !friction.pairings.is_empty() {
+                let size = Pairing::LAYOUT.size * friction.pairings.len();
+                let why = "coefficients of each two materials";
+                buffers.push(BufferPlan::uniform("pairings", size, why));
+            }
             FrictionalContact::LAYOUT.size
         }
         None => Contact::LAYOUT.size,
@@ -203,11 +218,15 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
 }
 
 /// What the shaders of grains that rotate are made of.
-fn set_friction(scene: &Scene, friction: &Friction, variant: &mut Variant) {
+fn set_friction(scene: &Scene, grains: &scene::Grains, friction: &Friction, variant: &mut Variant) {
     let rolls = friction.rolling == Some(RollingResistance::Spring);
     variant
         .flag("rolling", friction.rolling.is_some())
         .flag("rolling_spring", rolls)
+        .flag("cohesion", friction.cohesion_range > 0.0)
+        .flag("materials", friction.materials > 1)
+        .flag("mixed_grains", grains.mixed)
+        .constant("MATERIALS", friction.materials as u32)
         .role("contact_law", contact_law(friction.law))
         .constant("CONTACT_SLOTS", contact_slots(scene.dimensions))
         .constant("CONTACT_WORDS", contact_words(scene.dimensions, rolls))
@@ -242,15 +261,19 @@ fn parameters(_: &Scene, matter: &Matter) -> Vec<Written> {
             grains: pairing(&friction.grains),
             walls: pairing(&friction.walls),
             diameter: (2.0 * grains.radius) as f32,
-            reach: (REACH * 2.0 * grains.radius) as f32,
+            reach: (friction.reach(grains.radius) * 2.0 * grains.radius) as f32,
             inverse_mass: (1.0 / grains.mass) as f32,
             inverse_inertia: (1.0 / friction.inertia) as f32,
             inertia: friction.inertia as f32,
             global_damping: contact.global_damping as f32,
             farthest: FAR,
-            ..Default::default()
+            cohesion_range: friction.cohesion_range as f32,
         };
-        return vec![Written::new("contact", &[contact])];
+        let pairings: Vec<Pairing> = friction.pairings.iter().map(pairing).collect();
+        let table = (!pairings.is_empty()).then(|| Written::new("pairings", &pairings));
+        return std::iter::once(Written::new("contact", &[contact]))
+            .chain(table)
+            .collect();
     }
     let contact = Contact {
         spring: contact.spring as f32,
@@ -277,6 +300,7 @@ fn pairing(pairing: &friction::Pairing) -> Pairing {
         rolling_stiffness: pairing.rolling_stiffness as f32,
         rolling_damping: pairing.rolling_damping as f32,
         rolling_inertia: pairing.rolling_inertia as f32,
+        cohesion: pairing.cohesion as f32,
         ..Default::default()
     }
 }
@@ -314,7 +338,16 @@ pub fn bounds(scene: &Scene, kind: impl Fn(Wall) -> bool, inset: f32) -> ([f32; 
 
 fn walls_that_push(scene: &Scene) -> ContactWalls {
     let (lower, upper) = bounds(scene, |wall| wall == Wall::Contact, 0.0);
-    ContactWalls { lower, upper }
+    let materials = |end: usize| {
+        let [x, y, z] = scene.domain.materials;
+        [x[end] as f32, y[end] as f32, z[end] as f32, 0.0]
+    };
+    ContactWalls {
+        lower,
+        upper,
+        lower_materials: materials(0),
+        upper_materials: materials(1),
+    }
 }
 
 fn walls_that_clamp(scene: &Scene) -> ClampWalls {

@@ -128,6 +128,9 @@ shared_struct! {
     pub struct ContactWalls {
         pub lower: [f32; 4],
         pub upper: [f32; 4],
+        /// Numbers of the sides' materials.
+        pub lower_materials: [f32; 4],
+        pub upper_materials: [f32; 4],
     }
 }
 
@@ -178,7 +181,9 @@ shared_struct! {
         pub rolling_damping: f32,
         /// kg·m².
         pub rolling_inertia: f32,
-        pub _pad: [u32; 3],
+        /// Greatest pull, N.
+        pub cohesion: f32,
+        pub _pad: [u32; 2],
     }
 }
 
@@ -201,7 +206,8 @@ shared_struct! {
         pub global_damping: f32,
         /// More than any coordinate, metres.
         pub farthest: f32,
-        pub _pad: u32,
+        /// Metres.
+        pub cohesion_range: f32,
     }
 }
 
@@ -224,6 +230,8 @@ shared_struct! {
         pub b: [f32; 4],
         pub offset: [f32; 4],
         pub velocity: [f32; 4],
+        /// rad/s; beside it, the number of its material.
+        pub spin: [f32; 4],
     }
 }
 
@@ -232,6 +240,7 @@ impl Collider {
     pub const BOX: u32 = 1;
     pub const SPHERE: u32 = 2;
     pub const MESH: u32 = 3;
+    pub const CYLINDER: u32 = 4;
 }
 
 shared_struct! {

@@ -33,6 +33,10 @@ pub fn bounds(scene: &Scene) -> (DVec3, DVec3) {
             ColliderShape::Sphere { center, radius, .. } => {
                 ((center - radius).as_dvec3(), (center + radius).as_dvec3())
             }
+            ColliderShape::Cylinder { from, to, radius, .. } => (
+                (from.min(*to) - radius).as_dvec3(),
+                (from.max(*to) + radius).as_dvec3(),
+            ),
             ColliderShape::Mesh(mesh) => mesh
                 .vertices
                 .iter()

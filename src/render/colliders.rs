@@ -11,6 +11,9 @@ use crate::scene::{Collider, ColliderShape, Dimensions, Domain, Scene};
 /// Two entries a vertex: position and the collider's number; normal and 1 where only the outside is drawn.
 pub type Vertices = Vec<[f32; 4]>;
 
+/// How thick pictures of a 2D scene show the rim of a hollow obstacle, in its radii.
+const RIM: f32 = 0.03;
+
 /// Edges sharper than this stay sharp in a mesh's shading.
 const CREASE_COSINE: f64 = 0.7;
 
@@ -76,15 +79,59 @@ impl Surface {
                 self.fan(&rectangle(*min, *max), Vec3::Z, false);
             }
             ColliderShape::Box { min, max } => self.solid_box(*min, *max),
+            ColliderShape::Sphere {
+                center,
+                radius,
+                hollow: true,
+            } if flat => self.ring(*center, *radius),
             // What is inside would be hidden.
             ColliderShape::Sphere { hollow: true, .. } => {}
             ColliderShape::Sphere { center, radius, .. } if flat => {
-                let corner = |k: u32| Vec3::from((glam::Vec2::from_angle(k as f32 * 0.065_449_85), 0.0));
-                let circle: Vec<Vec3> = (0..96).map(|k| center + corner(k) * *radius).collect();
+                let circle: Vec<Vec3> = (0..96).map(|k| center + on_circle(k) * *radius).collect();
                 self.fan(&circle, Vec3::Z, false);
             }
             ColliderShape::Sphere { center, radius, .. } => self.sphere(*center, *radius),
+            ColliderShape::Cylinder {
+                from,
+                to,
+                radius,
+                hollow,
+            } => self.cylinder([*from, *to], *radius, *hollow),
             ColliderShape::Mesh(mesh) => self.mesh(mesh),
+        }
+    }
+
+    /// The rim of what is solid around a disc.
+    fn ring(&mut self, center: Vec3, radius: f32) {
+        for k in 0..96 {
+            let (a, b) = (on_circle(k), on_circle(k + 1));
+            let outer = 1.0 + RIM;
+            let quad = [a, a * outer, b * outer, b].map(|corner| center + corner * radius);
+            self.fan(&quad, Vec3::Z, false);
+        }
+    }
+
+    /// With both ends where it is solid inside. Of a hollow one the side that the eye looks at from inside.
+    fn cylinder(&mut self, ends: [Vec3; 2], radius: f32, hollow: bool) {
+        let axis = (ends[1] - ends[0]).normalize_or_zero();
+        let (u, v) = axis.any_orthonormal_pair();
+        let around = |k: u32| {
+            let corner = on_circle(k);
+            u * corner.x + v * corner.y
+        };
+        let side = if hollow { -1.0 } else { 1.0 };
+        for k in 0..96 {
+            let (a, b) = (around(k), around(k + 1));
+            let [low, high] = ends;
+            for (end, normal) in [(low, a), (low, b), (high, b), (low, a), (high, b), (high, a)] {
+                self.vertex(end + normal * radius, normal * side, true);
+            }
+        }
+        if !hollow {
+            for (end, normal) in [(ends[0], -axis), (ends[1], axis)] {
+                let circle: Vec<Vec3> = (0..96).map(|k| end + around(k) * radius).collect();
+                self.fan(&circle, normal, true);
+            }
         }
     }
 
@@ -148,6 +195,11 @@ impl Surface {
             }
         }
     }
+}
+
+/// The k-th of 96 points of a circle of radius one.
+fn on_circle(k: u32) -> Vec3 {
+    Vec3::from((glam::Vec2::from_angle((k % 96) as f32 * 0.065_449_85), 0.0))
 }
 
 fn rectangle(min: Vec3, max: Vec3) -> Vec<Vec3> {

@@ -11,6 +11,7 @@ use super::filling::Filling;
 use super::fit::{self, Grains, Placed};
 use super::fluid;
 use super::frame::{Frame, LARGEST_COORDINATE, Report};
+use super::grain_materials;
 use super::mesh::Mesh;
 use super::model::{self, Arrangement, Body, SceneFile, Shape};
 use super::obstacles::{self, FILE_HELP, check_corners, transform};
@@ -77,6 +78,13 @@ pub fn fill(
         particles
             .position
             .extend(grains.position.iter().map(|p| p.as_vec3()));
+        if grain_materials::are_mixed(file) {
+            let name = body.material.as_deref();
+            let material = grain_materials::number(&format!("{path}.material"), name, file, report);
+            particles
+                .material
+                .extend(grains.position.iter().map(|_| material));
+        }
         if let Some(fluid) = &file.fluid {
             fill_fluid(
                 &path,

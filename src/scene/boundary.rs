@@ -54,7 +54,6 @@ pub fn sample(
     };
     domain_sides(file, frame, spacing, layers as i64, &mut boundary, report);
     for (index, collider) in colliders.iter().enumerate() {
-        let given = &file.colliders[index];
         let depth = boundary.depth;
         let place = format!("colliders[{index}].shape");
         let count = most_inside(collider, frame, spacing, depth);
@@ -63,13 +62,12 @@ pub fn sample(
             continue;
         }
         for point in inside(collider, frame, spacing, depth) {
-            let turn = match (&collider.shape, given.spin) {
-                (super::ColliderShape::Sphere { center, .. }, Some(spin)) => {
-                    let arm = point - center.as_dvec3();
-                    DVec3::new(-arm.y, arm.x, 0.0) * spin
-                }
-                _ => DVec3::ZERO,
+            let center = match &collider.shape {
+                super::ColliderShape::Sphere { center, .. } => *center,
+                super::ColliderShape::Cylinder { from, .. } => *from,
+                _ => Vec3::ZERO,
             };
+            let turn = collider.spin.as_dvec3().cross(point - center.as_dvec3());
             boundary.position.push(point.as_vec3());
             boundary.surface_velocity.push(turn.as_vec3());
             boundary.body.push(index as u32);
@@ -213,7 +211,7 @@ fn most_inside(collider: &Collider, frame: &Frame, spacing: f64, depth: f64) -> 
             };
             layers * (sphere + 1.0)
         }
-        Plane { .. } => {
+        Plane { .. } | Cylinder { .. } => {
             let (low, high) = shell_bounds(collider, frame, depth);
             let widest = (high - low).truncate().max_element().max((high - low).z);
             2.0 * (depth / spacing + 1.0) * (widest / spacing).powi(axes as i32 - 1)
@@ -272,7 +270,7 @@ fn inside(collider: &Collider, frame: &Frame, spacing: f64, depth: f64) -> Vec<D
             spacing,
             depth,
         ),
-        Plane { .. } | Mesh(_) => lattice_shell(collider, frame, spacing, depth),
+        Plane { .. } | Cylinder { .. } | Mesh(_) => lattice_shell(collider, frame, spacing, depth),
     };
     points.into_iter().map(|point| point + offset).collect()
 }
@@ -355,7 +353,7 @@ fn fibonacci_sphere(center: DVec3, radius: f64, spacing: f64) -> impl Iterator<I
     })
 }
 
-/// Points of the fluid's lattice inside of a plane's or mesh's solid.
+/// Points of the fluid's lattice inside of a plane's, cylinder's or mesh's solid.
 fn lattice_shell(collider: &Collider, frame: &Frame, spacing: f64, depth: f64) -> Vec<DVec3> {
     let obstacle = Obstacle::new(&collider.shape, frame.dimensions);
     let (low, high) = shell_bounds(collider, frame, depth);

@@ -4,7 +4,7 @@ use super::frame::{Frame, Report};
 use super::model::{Axis, Cell, Look, SceneFile};
 use super::synonyms::suggest_word;
 use super::text::{list, number};
-use super::{Coloring, Dimensions, Particles, color_maps, column};
+use super::{Coloring, Dimensions, Particles, color_maps, column, grain_materials};
 
 /// What default ranges are derived from.
 pub struct Known<'a> {
@@ -39,7 +39,7 @@ pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
     let flat = known.frame.dimensions == Dimensions::Two;
     let names = column::COLUMNS.iter().map(|column| column.name);
     let names = names.filter(|name| !flat || !["z", "velocity_z"].contains(name));
-    let materials = known.file.fluid.as_ref().map_or(0, |fluid| fluid.materials.len());
+    let materials = materials(known.file);
     let names = names.filter(|name| materials > 1 || *name != "material");
     let Some(column) = column::find(&color.by).filter(|column| names.clone().any(|name| name == column.name))
     else {
@@ -47,7 +47,7 @@ pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
             Some(_) if color.by == "material" => (
                 "all particles are of one material".to_owned(),
                 format!(
-                    "describe several fluids in fluid.materials, or take one of {}",
+                    "describe several fluids in fluid.materials, name one of grains.materials in bodies, or take one of {}",
                     list(names)
                 ),
             ),
@@ -72,6 +72,15 @@ pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
 }
 
 /// Colors are computed in f32, so both ends and their difference must fit it.
+/// How many materials the particles are of, at most.
+fn materials(file: &SceneFile) -> usize {
+    match (&file.fluid, &file.grains) {
+        (Some(fluid), _) => fluid.materials.len(),
+        (None, Some(grains)) if grain_materials::are_mixed(file) => 1 + grains.materials.len(),
+        _ => 1,
+    }
+}
+
 fn check_range([low, high]: [f64; 2], report: &mut Report) {
     const LARGEST: f64 = 1e38;
     let path = "render.color.range";
@@ -107,7 +116,7 @@ fn default_range(column: &str, known: &Known) -> [f64; 2] {
         "id" => [0.0, f64::from(known.capacity.max(2) - 1)],
         "contacts" if file.fluid.is_some() => [0.0, if dimensions == 2 { 30.0 } else { 80.0 }],
         "material" => {
-            let materials = file.fluid.as_ref().map_or(0, |fluid| fluid.materials.len());
+            let materials = materials(file);
             [0.0, materials.max(2) as f64 - 1.0]
         }
         // Grains of one size touch at most six others in a plane, twelve in space.

@@ -11,7 +11,7 @@ use super::model::{Change, Dashpot, Grains};
 use super::{Contact, Dimensions, frame::Report};
 
 /// The contact law as the user gives it; events change it.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Law {
     spring: f64,
     loss: Loss,
@@ -36,7 +36,7 @@ impl Law {
     /// Of grains of so many kilograms that are expected to meet with at most `speed` m/s.
     pub fn new(grains: &Grains, dimensions: Dimensions, mass: f64, speed: f64, report: &mut Report) -> Self {
         let friction = friction::Given::new(grains, dimensions, mass, speed);
-        if let Some(friction) = friction {
+        if let Some(friction) = &friction {
             // What is missing has been told.
             let restitution = grains.restitution.unwrap_or(1.0);
             let by_time = |time| friction.spring(time, restitution);
@@ -47,7 +47,7 @@ impl Law {
                 shear: 0.0,
                 attraction: 0.0,
                 global_damping: grains.global_damping,
-                friction: Some(friction),
+                friction: Some(friction.clone()),
             };
         }
         let loss = loss("grains", grains.damping, grains.restitution, report).unwrap_or_else(|| {
@@ -80,13 +80,13 @@ impl Law {
             shear: change.shear.unwrap_or(self.shear),
             attraction: change.attraction.unwrap_or(self.attraction),
             global_damping: change.global_damping.unwrap_or(self.global_damping),
-            friction: self.friction,
+            friction: self.friction.clone(),
         }
     }
 
     /// Coefficients for grains of `mass` kilograms.
     pub fn contact(&self, mass: f64) -> Contact {
-        if let (Some(friction), Loss::Restitution(restitution)) = (self.friction, self.loss) {
+        if let (Some(friction), Loss::Restitution(restitution)) = (&self.friction, self.loss) {
             return Contact {
                 spring: 0.0,
                 damping: 0.0,
@@ -95,7 +95,7 @@ impl Law {
                 shear: 0.0,
                 attraction: 0.0,
                 global_damping: self.global_damping,
-                friction: Some(friction.friction(self.spring, restitution)),
+                friction: Some(Box::new(friction.friction(self.spring, restitution))),
             };
         }
         let (damping, wall_damping) = match self.loss {

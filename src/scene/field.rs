@@ -201,11 +201,15 @@ pub const FIELDS: &[Field] = &[
     Field {
         name: "material",
         kind: Kind::Unsigned,
-        about: "which of several fluids the particle belongs to, in the order of fluid.materials",
+        about: "number of the particle's material: the place of one of several fluids in fluid.materials; of grains, the place in \
+                grains.materials counted from 1, and 0 for what `grains` itself says",
         column: Some(Source::Field),
         travels: Travels::Kept,
         saved: true,
-        has: |scene| scene.fluid().is_some_and(|fluid| fluid.materials.len() > 1),
+        has: |scene| {
+            scene.fluid().is_some_and(|fluid| fluid.materials.len() > 1)
+                || scene.grains().is_some_and(|grains| grains.mixed)
+        },
         start: Some(|new| bytemuck::cast_slice(&new.free.material).to_vec()),
         ..ROW
     },

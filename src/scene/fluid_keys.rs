@@ -13,14 +13,20 @@ pub fn check(file: &SceneFile, report: &mut Report) {
         of_fluids(file, report);
     }
     for (i, collider) in file.colliders.iter().enumerate() {
-        let round = matches!(collider.shape, ColliderShape::Sphere { .. });
-        if collider.spin.is_some() && file.fluid.is_some() && !round {
+        let round = matches!(
+            collider.shape,
+            ColliderShape::Sphere { .. } | ColliderShape::Cylinder { .. }
+        );
+        if collider.spin.is_some() && !round {
             report.problem(
                 format!("colliders[{i}].spin"),
-                "only a sphere can turn and stay where it is",
-                "leave it out, or make the shape a sphere",
+                "only a sphere or a cylinder can turn and stay where it is",
+                "leave it out, or make the shape a sphere or a cylinder",
             );
         }
+    }
+    if file.fluid.is_some() {
+        of_materials(file, report);
     }
     if let Some(fluid) = &file.fluid
         && fluid.contact_angle.is_some()
@@ -109,6 +115,24 @@ fn of_compressible_fluids(file: &SceneFile, fluid: &Fluid, report: &mut Report) 
     }
 }
 
+/// Materials of walls, which only grains know.
+fn of_materials(file: &SceneFile, report: &mut Report) {
+    let colliders = file.colliders.iter().enumerate();
+    let colliders = colliders
+        .filter(|(_, collider)| collider.material.is_some())
+        .map(|(i, _)| format!("colliders[{i}].material"));
+    let sides = file.domain.side_materials.all();
+    let sides = sides.iter().flatten().filter(|(_, given)| given.is_some());
+    let sides = sides.map(|(side, _)| format!("domain.side_materials.{side}"));
+    for path in colliders.chain(sides) {
+        report.problem(
+            path,
+            "has no effect on fluids",
+            "leave it out; fluid.slip and fluid.wall_friction say how a fluid meets walls",
+        );
+    }
+}
+
 /// Those that only fluids have, in a scene of grains.
 fn of_fluids(file: &SceneFile, report: &mut Report) {
     let mut problem = |path: String| {
@@ -122,20 +146,9 @@ fn of_fluids(file: &SceneFile, report: &mut Report) {
         let given = [
             ("flow", body.flow.is_some()),
             ("pressure", body.pressure != StartPressure::Rest),
-            ("material", body.material.is_some()),
         ];
         for (key, _) in given.into_iter().filter(|(_, given)| *given) {
             problem(format!("bodies[{i}].{key}"));
-        }
-    }
-    for (i, emitter) in file.emitters.iter().enumerate() {
-        if emitter.material.is_some() {
-            problem(format!("emitters[{i}].material"));
-        }
-    }
-    for (i, collider) in file.colliders.iter().enumerate() {
-        if collider.spin.is_some() {
-            problem(format!("colliders[{i}].spin"));
         }
     }
     for (name, _) in file

@@ -258,6 +258,7 @@ impl Frame {
             max: self.max.as_vec3(),
             sides: self.sides,
             restitution: restitution as f32,
+            materials: Default::default(),
         }
     }
 

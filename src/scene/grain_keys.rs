@@ -4,6 +4,8 @@ use super::Dimensions;
 use super::field::MOST_KEYS;
 use super::frame::{Frame, Report};
 use super::model::{ContactLaw, Dashpot, Grains, SceneFile, Wall};
+use super::text::number;
+use super::{friction, grain_materials};
 
 /// A key, and whether a scene gives it.
 type Key = (&'static str, fn(&Grains) -> bool);
@@ -19,6 +21,10 @@ const OF_FRICTION: &[Key] = &[
     ("wall_friction", |grains| grains.wall_friction.is_some()),
     ("rolling_friction", |grains| grains.rolling_friction.is_some()),
     ("rolling_resistance", |grains| grains.rolling_resistance.is_some()),
+    ("cohesion", |grains| grains.cohesion.is_some()),
+    ("cohesion_range", |grains| grains.cohesion_range.is_some()),
+    ("materials", |grains| !grains.materials.is_empty()),
+    ("pairs", |grains| !grains.pairs.is_empty()),
 ];
 const OF_LINEAR: &[Key] = &[
     ("contact_time", |grains| grains.contact_time.is_some()),
@@ -103,7 +109,25 @@ pub fn check(file: &SceneFile, frame: &Frame, report: &mut Report) {
             "add \"restitution\": 0.5 (1 loses nothing)",
         );
     }
-    if grains.rolling_resistance.is_some() && grains.rolling_friction.unwrap_or(0.0) == 0.0 {
+    grain_materials::check(grains, report);
+    if grains.cohesion_range.is_some() && !friction::sticks(grains) {
+        report.problem(
+            "grains.cohesion_range",
+            "has no effect without cohesion",
+            "add \"cohesion\", in N, or leave it out",
+        );
+    }
+    if grains.cohesion_range.is_some_and(|range| range > grains.radius) {
+        report.problem(
+            "grains.cohesion_range",
+            format!(
+                "reaches farther than a grain's radius, {} m",
+                number(grains.radius)
+            ),
+            "shorten it: neighbors are not searched farther",
+        );
+    }
+    if grains.rolling_resistance.is_some() && !friction::rolls(grains) {
         report.problem(
             "grains.rolling_resistance",
             "has no effect without rolling friction",

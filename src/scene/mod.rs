@@ -22,6 +22,7 @@ mod frame;
 mod free_surface;
 pub mod friction;
 mod grain_keys;
+mod grain_materials;
 pub mod import;
 mod json;
 pub mod keys;
@@ -105,8 +106,8 @@ impl Scene {
     /// How far neighbors are searched, metres.
     pub fn search_radius(&self) -> f64 {
         match &self.matter {
-            Matter::Grains(grains) => match grains.contact.friction {
-                Some(_) => friction::REACH * 2.0 * grains.radius,
+            Matter::Grains(grains) => match &grains.contact.friction {
+                Some(friction) => friction.reach(grains.radius) * 2.0 * grains.radius,
                 None => 2.0 * grains.radius,
             },
             Matter::Fluid(fluid) => fluid.support,
@@ -123,7 +124,8 @@ impl Scene {
 
     /// Of grains that rotate and rub.
     pub fn friction(&self) -> Option<&Friction> {
-        self.grains().and_then(|grains| grains.contact.friction.as_ref())
+        self.grains()
+            .and_then(|grains| grains.contact.friction.as_deref())
     }
 
     /// What particles are at the start and after each change, in order of time.
@@ -242,6 +244,8 @@ pub struct Domain {
     pub sides: [[Wall; 2]; 3],
     /// Of `clamp` walls.
     pub restitution: f32,
+    /// Number of the material of each side, of grains.
+    pub materials: [[u32; 2]; 3],
 }
 
 impl Domain {
@@ -261,17 +265,19 @@ impl Domain {
 }
 
 /// Equal grains.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Grains {
     /// Metres.
     pub radius: f64,
     /// Kilograms.
     pub mass: f64,
     pub contact: Contact,
+    /// Whether they are of several materials.
+    pub mixed: bool,
 }
 
 /// The contact law with its coefficients (Harada 2007, Eq. 9 and 10; Green 2012).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Contact {
     /// N/m.
     pub spring: f64,
@@ -287,7 +293,7 @@ pub struct Contact {
     /// 1/s.
     pub global_damping: f64,
     /// Of grains that rotate; then all but `global_damping` of the above is zero.
-    pub friction: Option<Friction>,
+    pub friction: Option<Box<Friction>>,
 }
 
 /// Positions (local, metres) and velocities (m/s) of particles, one entry per particle.
@@ -299,7 +305,7 @@ pub struct Particles {
     pub density_deviation: Vec<f32>,
     /// Of a fluid: pressure at the start, Pa. Empty for grains.
     pub start_pressure: Vec<f32>,
-    /// Of several fluids: index into their materials. Empty for one.
+    /// Of several fluids, or of grains of several materials: number of their material. Empty for one.
     pub material: Vec<u32>,
 }
 
@@ -328,6 +334,10 @@ pub struct Collider {
     pub shape: ColliderShape,
     /// Seconds and the offset from where the shape stands, metres; ascending in time.
     pub path: Vec<(f64, Vec3)>,
+    /// How its surface turns about its center or axis while the shape stays where it is, rad/s.
+    pub spin: Vec3,
+    /// Number of its material, of grains.
+    pub material: u32,
     /// sRGB, 0 to 1.
     pub color: [f32; 3],
     pub visible: bool,
@@ -349,6 +359,13 @@ pub enum ColliderShape {
         center: Vec3,
         radius: f32,
         /// Solid outside instead of inside.
+        hollow: bool,
+    },
+    Cylinder {
+        from: Vec3,
+        to: Vec3,
+        radius: f32,
+        /// Solid outside, without end in both directions.
         hollow: bool,
     },
     Mesh(mesh::Mesh),

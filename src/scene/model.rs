@@ -17,7 +17,7 @@ use super::text::number;
 pub use fluid::{
     DensityFrom, Fluid, FluidSolver, Kernel, Material, NegativePressure, PressureForce, Slip, ViscosityForm,
 };
-pub use grains::{ContactLaw, Dashpot, Grains, RollingResistance};
+pub use grains::{ContactLaw, Dashpot, GrainMaterial, Grains, MaterialPair, RollingResistance};
 pub use neighbors::{Addressing, Cell, Neighbors, SlicingAxis, Storage};
 pub use render::{Background, Camera, Color, Look, Projection, Render, Show, Splat, View, Water};
 pub use sensors::{Sensor, SensorField, Side};
@@ -178,6 +178,48 @@ pub struct Domain {
     /// Velocities of the sides' surfaces, m/s, while the sides stay where they are: a lid that drives the fluid.
     #[serde(default, skip_serializing_if = "SideVelocities::is_empty")]
     pub side_velocities: SideVelocities,
+    /// Materials of `contact` sides, by names of `grains.materials`.
+    #[serde(default, skip_serializing_if = "SideMaterials::is_empty")]
+    pub side_materials: SideMaterials,
+}
+
+/// Materials of the domain's sides; those that are left out are of `grains`.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SideMaterials {
+    /// Material of the side at the lower end of x.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x_min: Option<String>,
+    /// Material of the side at the upper end of x.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x_max: Option<String>,
+    /// Material of the side at the lower end of y: the floor.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y_min: Option<String>,
+    /// Material of the side at the upper end of y.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y_max: Option<String>,
+    /// Material of the side at the lower end of z.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z_min: Option<String>,
+    /// Material of the side at the upper end of z.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z_max: Option<String>,
+}
+
+impl SideMaterials {
+    /// `[axis][end]`, with the side's name.
+    pub fn all(&self) -> [[(&'static str, Option<&str>); 2]; 3] {
+        [
+            [("x_min", self.x_min.as_deref()), ("x_max", self.x_max.as_deref())],
+            [("y_min", self.y_min.as_deref()), ("y_max", self.y_max.as_deref())],
+            [("z_min", self.z_min.as_deref()), ("z_max", self.z_max.as_deref())],
+        ]
+    }
+
+    fn is_empty(&self) -> bool {
+        self.all().iter().flatten().all(|(_, given)| given.is_none())
+    }
 }
 
 /// Velocities of the surfaces of the domain's sides; those that are left out rest.
@@ -281,7 +323,7 @@ pub struct Body {
     /// Pressure at the start; for fluids whose density follows `continuity`.
     #[serde(default)]
     pub pressure: StartPressure,
-    /// Name of one of `fluid.materials`; the first when left out.
+    /// Name of one of `fluid.materials`, the first when left out; or of `grains.materials`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// How its particles stand at the start.
@@ -472,11 +514,14 @@ pub struct Collider {
     /// A motion to and fro, on top of what its path does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub oscillation: Option<Oscillation>,
-    /// How its surface turns about the shape's center while the shape stays where it is, rad/s, counter-clockwise
-    /// (about z in 3D); for spheres in fluids.
+    /// How its surface turns while the shape stays where it is, rad/s, counter-clockwise: of a sphere about its center (about z
+    /// in 3D), of a cylinder about its axis, as seen from its end `to`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1e9, max = 1e9))]
     pub spin: Option<f64>,
+    /// Name of one of `grains.materials`; with fluids it has no effect and is refused.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
     /// Color in pictures, `#rrggbb`.
     #[serde(default = "steel")]
     pub color: String,
@@ -518,6 +563,20 @@ pub enum ColliderShape {
         #[schemars(range(min = 1e-9, max = 1e6))]
         radius: f64,
         /// Solid outside instead of inside: a round vessel.
+        #[serde(default)]
+        hollow: bool,
+    },
+    /// A cylinder in any direction; 3D only.
+    Cylinder {
+        /// Center of the first end, metres.
+        from: Coordinates,
+        /// Center of the other end, metres.
+        to: Coordinates,
+        /// Radius, metres.
+        #[schemars(range(min = 1e-9, max = 1e6))]
+        radius: f64,
+        /// Solid outside instead of inside: a tube or drum, which goes on without end in both directions. Pictures show it
+        /// from `from` to `to`.
         #[serde(default)]
         hollow: bool,
     },
@@ -596,7 +655,7 @@ pub struct Emitter {
     /// rotate.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arrangement: Option<Arrangement>,
-    /// Name of one of `fluid.materials`; the first when left out.
+    /// Name of one of `fluid.materials`, the first when left out; or of `grains.materials`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Whether it flows from the start; events switch it.

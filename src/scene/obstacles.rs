@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3, Vec3};
 
 use super::frame::{Frame, LARGEST_COORDINATE, Report};
+use super::grain_materials;
 use super::mesh::Mesh;
 use super::mesh::surface::Surface;
 use super::motion::{MOST_PIECES, Wave, smooth_path};
@@ -45,13 +46,29 @@ pub fn colliders(
         });
         colliders.push(Collider {
             name: given.name.clone(),
-            shape,
             path: motion(&path, given, file.radius(), end, frame, report),
+            spin: spin(&shape, given.spin.unwrap_or(0.0)),
+            material: grain_materials::number(
+                &format!("{path}.material"),
+                given.material.as_deref(),
+                file,
+                report,
+            ),
             color: color.map(|channel| f32::from(channel) / 255.0),
             visible: given.visible,
+            shape,
         });
     }
     colliders
+}
+
+/// The angular velocity of a surface that turns about the center or the axis of its shape, rad/s.
+fn spin(shape: &ColliderShape, rate: f64) -> Vec3 {
+    let axis = match shape {
+        ColliderShape::Cylinder { from, to, .. } => (to - from).normalize_or_zero(),
+        _ => Vec3::Z,
+    };
+    axis * rate as f32
 }
 
 fn motion(
@@ -160,6 +177,29 @@ fn shape(
             radius: *radius as f32,
             hollow: *hollow,
         }),
+        model::ColliderShape::Cylinder {
+            from,
+            to,
+            radius,
+            hollow,
+        } => {
+            let (from, to) = (point("from", from), point("to", to));
+            if frame.dimensions == Dimensions::Two {
+                report.problem(
+                    path,
+                    "a cylinder in a 2D scene",
+                    "use a sphere, which is a disc there",
+                );
+            } else if from == to {
+                report.problem(path, "its two ends are the same point", "move one of them");
+            }
+            Some(ColliderShape::Cylinder {
+                from: from.as_vec3(),
+                to: to.as_vec3(),
+                radius: *radius as f32,
+                hollow: *hollow,
+            })
+        }
         model::ColliderShape::Mesh { file, placement } => {
             mesh(path, file, placement, frame, folder, report).map(ColliderShape::Mesh)
         }
@@ -294,10 +334,10 @@ impl<'a> Obstacle<'a> {
         }
     }
 
-    /// Whether a point inside is at least `depth` below the surface of a plane or mesh.
+    /// Whether a point inside is at least `depth` below the surface of a plane, cylinder or mesh.
     pub fn is_deeper(&self, point: DVec3, depth: f64) -> bool {
         match self.shape {
-            ColliderShape::Plane { .. } => self.touches(point, -depth),
+            ColliderShape::Plane { .. } | ColliderShape::Cylinder { .. } => self.touches(point, -depth),
             ColliderShape::Mesh(_) => self
                 .surface
                 .as_ref()
@@ -374,12 +414,32 @@ impl<'a> Obstacle<'a> {
                     distance < radius + reach
                 }
             }
+            ColliderShape::Cylinder {
+                from,
+                to,
+                radius,
+                hollow,
+            } => distance_of_cylinder(center, [*from, *to], f64::from(*radius), *hollow) < reach,
             ColliderShape::Mesh(_) => self
                 .surface
                 .as_ref()
                 .is_some_and(|surface| surface.distance(center, reach) < reach || surface.contains(center)),
         }
     }
+}
+
+/// Of a point from the surface, metres, less than zero in what is solid.
+fn distance_of_cylinder(point: DVec3, ends: [Vec3; 2], radius: f64, hollow: bool) -> f64 {
+    let [from, to] = ends.map(|end| end.as_dvec3());
+    let axis = (to - from).normalize();
+    let along = axis.dot(point - from);
+    let beside = (point - from - along * axis).length() - radius;
+    if hollow {
+        return -beside;
+    }
+    let beyond = (-along).max(along - from.distance(to));
+    let outside = DVec2::new(beside, beyond).max(DVec2::ZERO).length();
+    outside + beside.max(beyond).min(0.0)
 }
 
 #[cfg(test)]
@@ -442,6 +502,24 @@ mod tests {
             assert!(foot.distance(DVec3::new(0.0, 2.0, 0.0)) < 1e-12, "{foot}");
             assert_eq!(out(&ball(hollow), outside), None);
         }
+    }
+
+    #[test]
+    fn a_cylinder_touches_what_is_beside_it() {
+        let shape = |hollow| ColliderShape::Cylinder {
+            from: Vec3::new(1.0, 1.0, 0.0),
+            to: Vec3::new(1.0, 1.0, 2.0),
+            radius: 0.5,
+            hollow,
+        };
+        let (full, hollow) = (shape(false), shape(true));
+        let [full, hollow] = [&full, &hollow].map(|shape| Obstacle::new(shape, Dimensions::Three));
+        let beside = DVec3::new(1.75, 1.0, 1.0);
+        assert!(full.touches(beside, 0.26) && !full.touches(beside, 0.24) && hollow.is_deeper(beside, 0.24));
+        let above = DVec3::new(1.0, 1.3, 2.5);
+        assert!(full.touches(above, 0.51) && !full.touches(above, 0.49));
+        assert!(hollow.touches(above, 0.21) && !hollow.touches(above, 0.19));
+        assert!(full.is_deeper(DVec3::ONE, 0.49) && !full.is_deeper(DVec3::ONE, 0.51));
     }
 
     #[test]

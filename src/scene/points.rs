@@ -101,12 +101,14 @@ impl Scene {
                 max,
                 sides: [[Wall::Open; 2]; 3],
                 restitution: 0.0,
+                materials: Default::default(),
             },
             gravity: Vec3::ZERO,
             matter: Matter::Grains(Grains {
                 radius,
                 mass: 1.0,
                 contact: NO_CONTACT,
+                mixed: false,
             }),
             particles: Particles {
                 position: points.iter().map(|p| (flat(p) - origin).as_vec3()).collect(),

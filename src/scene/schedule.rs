@@ -9,6 +9,7 @@ use super::contact::Law;
 use super::emission;
 use super::fluid;
 use super::frame::{Frame, Report};
+use super::grain_materials;
 use super::model::{Arrangement, Change, ContactLaw, Emitter, Event, SceneFile};
 use super::motion::{self, Shift};
 use super::shapes::{self, Region};
@@ -41,7 +42,7 @@ impl Schedule<'_> {
     /// The contact law after each change.
     pub fn contacts(&self) -> impl Iterator<Item = Contact> {
         self.due.iter().filter_map(|(_, due)| match due {
-            Due::Set { contact, .. } => *contact,
+            Due::Set { contact, .. } => contact.clone(),
             Due::Add(_) => None,
         })
     }
@@ -150,14 +151,14 @@ impl<'a> Unroll<'a> {
         if let Some(change) = &event.set {
             let place = format!("{path}.set");
             let material = changes::check(&place, change, self.file, report);
-            let law = self.law.map(|law| law.changed(&place, change, report));
+            let law = self.law.as_ref().map(|law| law.changed(&place, change, report));
             let gravity = match &change.gravity {
                 Some(gravity) => report.vector(&format!("{place}.gravity"), gravity, self.frame.dimensions),
                 None => self.gravity,
             };
             if happens {
                 (self.law, self.gravity) = (law, gravity);
-                let contact = law.map(|law| law.contact(self.mass));
+                let contact = self.law.as_ref().map(|law| law.contact(self.mass));
                 let gravity = gravity.as_vec3();
                 self.due.push((
                     time,
@@ -325,12 +326,11 @@ impl<'a> Unroll<'a> {
             }
             points => points,
         };
-        let material = fluid::material(
-            &format!("{path}.material"),
-            emitter.material.as_deref(),
-            self.file,
-            report,
-        );
+        let (path_of_material, name) = (format!("{path}.material"), emitter.material.as_deref());
+        let material = match self.file.fluid {
+            Some(_) => fluid::material(&path_of_material, name, self.file, report),
+            None => grain_materials::number(&path_of_material, name, self.file, report),
+        };
         let every = spacing / velocity.length();
         let flows = emission::flows(emitter.on, &self.switches[index], end);
         let layers = |(from, to): &(f64, f64)| ((to - from) / every - 1e-9).ceil();
@@ -386,7 +386,7 @@ impl<'a> Unroll<'a> {
     fn batch(&self, points: &[DVec3], velocity: DVec3, material: u32) -> Particles {
         let (fluid, several) = match &self.file.fluid {
             Some(fluid) => (true, !fluid.materials.is_empty()),
-            None => (false, false),
+            None => (false, grain_materials::are_mixed(self.file)),
         };
         let of_fluid = if fluid { points.len() } else { 0 };
         Particles {

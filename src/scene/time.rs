@@ -48,7 +48,7 @@ pub fn of_grains(
         .iter()
         .map(|contact| contact.duration(mass))
         .fold(f64::INFINITY, f64::min);
-    let softer = match contacts[0].friction {
+    let softer = match &contacts[0].friction {
         Some(friction) if friction.law == model::ContactLaw::Hertz => "lower grains.young_modulus",
         _ => "make grains.spring softer",
     };

@@ -19,6 +19,7 @@ use super::frame::{Frame, Report};
 use super::free_surface;
 use super::friction;
 use super::grain_keys;
+use super::grain_materials;
 use super::model::{
     Addressing, DensityFrom, FluidSolver, Integrator, Look, Render, SceneFile, SlicingAxis, StartPressure,
     Storage, Wall,
@@ -64,7 +65,7 @@ pub(super) fn validate(
     let speed = friction::expected_speed(fastest, weight.length(), height);
     let grains = file.grains.as_ref();
     let law = grains.map(|grains| Law::new(grains, frame.dimensions, mass, speed, &mut report));
-    let schedule = schedule::schedule(&file, &frame, law, mass, end, &mut colliders, &mut report);
+    let schedule = schedule::schedule(&file, &frame, law.clone(), mass, end, &mut colliders, &mut report);
     let gravity = vector(&file.gravity.0);
     let contacts: Vec<_> = law
         .iter()
@@ -77,7 +78,8 @@ pub(super) fn validate(
             let matter = Matter::Grains(Grains {
                 radius: given.radius,
                 mass,
-                contact: contacts[0],
+                contact: contacts[0].clone(),
+                mixed: grain_materials::are_mixed(&file),
             });
             let time = time::of_grains(&file.time, frames, &contacts, mass, given.radius, &mut report);
             (matter.clone(), schedule.actions(matter), time)
@@ -170,6 +172,7 @@ pub(super) fn validate(
         &mut report,
     );
     let neighbors = neighbors(&file, &frame, &mut report);
+    let materials = grain_materials::of_sides(&file, &frame, &mut report);
     let render = render(&file, &frame, &mut report);
     let known = Known {
         file: &file,
@@ -184,7 +187,10 @@ pub(super) fn validate(
             name: file.name.clone(),
             dimensions: frame.dimensions,
             origin: frame.origin,
-            domain: frame.domain(file.domain.restitution),
+            domain: super::Domain {
+                materials,
+                ..frame.domain(file.domain.restitution)
+            },
             gravity: gravity.as_vec3(),
             matter,
             particles,
@@ -217,15 +223,12 @@ fn fastest_wall(file: &SceneFile, colliders: &[super::Collider]) -> f64 {
     let sides = sides.map(|given| vector(&given.0).length());
     let moves = colliders.iter().flat_map(|collider| collider.path.windows(2));
     let moves = moves.map(|pair| f64::from(pair[0].1.distance(pair[1].1)) / (pair[1].0 - pair[0].0));
-    let spins = file
-        .colliders
-        .iter()
-        .filter_map(|collider| match &collider.shape {
-            super::model::ColliderShape::Sphere { radius, .. } => {
-                collider.spin.map(|spin| (spin * radius).abs())
-            }
-            _ => None,
-        });
+    let spins = colliders.iter().filter_map(|collider| match &collider.shape {
+        super::ColliderShape::Sphere { radius, .. } | super::ColliderShape::Cylinder { radius, .. } => {
+            Some(f64::from(collider.spin.length() * radius))
+        }
+        _ => None,
+    });
     let emitters = file
         .emitters
         .iter()

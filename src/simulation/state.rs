@@ -119,7 +119,9 @@ impl State {
         if ids.windows(2).any(|pair| pair[0] == pair[1]) || u64::from(last) >= MOST_PARTICLES {
             return wrong("two particles have one id, or an id is too large");
         }
-        let materials = scene.fluid().map_or(1, |fluid| fluid.materials.len());
+        let of_fluids = scene.fluid().map(|fluid| fluid.materials.len());
+        let of_grains = scene.friction().map(|friction| friction.materials);
+        let materials = of_fluids.or(of_grains).unwrap_or(1);
         let of: Vec<u32> = bytemuck::pod_collect_to_vec(self.buffer("material").unwrap_or_default());
         if scene.has_field("material") && of.iter().any(|&material| material as usize >= materials) {
             return wrong("a particle is of no material");

@@ -60,9 +60,7 @@ pub fn dropped_block(cells: u32, columns: u32, layers: u32, seconds: f64, fps: f
 pub fn with_particles(file: &Value, particles: Particles) -> Result<Scene> {
     let mut file = file.clone();
     // One grain, which is replaced.
-    let middle: Vec<f64> = [0, 1, 2]
-        .map(|axis| file["domain"]["max"][axis].as_f64().unwrap_or(1.0) / 2.0)
-        .to_vec();
+    let middle = centre(&file);
     let grain = file["grains"]["radius"].as_f64().unwrap_or(RADIUS);
     file["bodies"] = json!([{ "shape": { "kind": "sphere", "center": middle, "radius": 1.5 * grain } }]);
     let scene = parse(&file)?;

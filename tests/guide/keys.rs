@@ -217,7 +217,10 @@ impl<'a> Walk<'a> {
                 let (item, words) = self.value(&format!("{path}[]"), &schema["items"]);
                 assert!(words.is_none(), "{path}: a list of words is not told yet");
                 match schema["minItems"].as_u64() {
-                    Some(count) if schema["maxItems"].as_u64() == Some(count) => format!("{count} numbers"),
+                    Some(count) if schema["maxItems"].as_u64() == Some(count) => match item.as_str() {
+                        "text" => format!("{count} texts"),
+                        _ => format!("{count} numbers"),
+                    },
                     _ if item == "text" => "a list of texts".to_owned(),
                     _ => format!("a list of {}", item.trim_start_matches("an object: ")),
                 }

@@ -42,9 +42,11 @@ pub fn scene(dimensions: Dimensions, min: Vec3, max: Vec3, radius: f64, size: [u
             max,
             sides: [[Wall::Contact; 2]; 3],
             restitution: 0.5,
+            materials: Default::default(),
         },
         gravity: Vec3::new(0.0, -9.81, 0.0),
         matter: Matter::Grains(Grains {
+            mixed: false,
             radius,
             mass: 1.0,
             contact: Contact {

@@ -15,14 +15,15 @@
 #end
 
 struct Collider {
-    kind: u32, // COLLIDER_PLANE, _BOX, _SPHERE or _MESH
+    kind: u32, // COLLIDER_PLANE, _BOX, _SPHERE, _MESH or _CYLINDER
     field_offset: u32, // mesh: its first value in distance_field
-    radius: f32, // sphere, m; negative for one that is solid outside
+    radius: f32, // sphere and cylinder, m; negative for one that is solid outside
     cell: f32, // mesh: distance of the field's nodes, m
-    a: vec4f, // plane: a point; box and mesh: lower corner; sphere: center (m)
-    b: vec4f, // plane: normal; box: upper corner (m); mesh: nodes along x, y, z
+    a: vec4f, // plane: a point; box and mesh: lower corner; sphere: center; cylinder: center of an end (m)
+    b: vec4f, // plane: normal; box: upper corner (m); mesh: nodes along x, y, z; cylinder: center of the other end (m)
     offset: vec4f, // where it is now, at the first step of the segment, m
     velocity: vec4f, // m/s
+    spin: vec4f, // of its surface about a, rad/s; w: number of its material
 }
 
 var<uniform> colliders: array<Collider, COLLIDERS>;
@@ -70,6 +71,32 @@ fn nearest_on_sphere(x: Vector, center: Vector, radius: f32) -> Nearest {
     return Nearest(side * distance - radius, side * outwards);
 }
 
+#if cylinders
+// Of one that is solid outside, which has no ends, or of one with flat ends.
+fn nearest_on_cylinder(x: vec3f, begin: vec3f, end: vec3f, radius: f32) -> Nearest {
+    let way = end - begin;
+    let axis = normalize(way);
+    let along = dot(x - begin, axis);
+    let arm = x - begin - along * axis;
+    let distance = length(arm);
+    let outwards = arm / max(distance, 1e-30);
+    let beside = distance - abs(radius);
+    if radius < 0.0 {
+        return Nearest(-beside, -outwards);
+    }
+    let cap = select(-axis, axis, 2.0 * along > length(way));
+    let beyond = max(-along, along - length(way));
+    if beside <= 0.0 || beyond <= 0.0 {
+        if beside > beyond {
+            return Nearest(beside, outwards);
+        }
+        return Nearest(beyond, cap);
+    }
+    let edge = beside * outwards + beyond * cap;
+    return Nearest(length(edge), normalize(edge));
+}
+#end
+
 #if mesh_colliders
 fn field_value(collider: Collider, node: vec3u) -> f32 {
     let size = vec3u(collider.b.xyz);
@@ -113,6 +140,11 @@ fn nearest_on(collider: Collider, x: Vector) -> Nearest {
         case COLLIDER_BOX: {
             return nearest_on_box(x, first(collider.a), first(collider.b));
         }
+#if cylinders
+        case COLLIDER_CYLINDER: {
+            return nearest_on_cylinder(x, collider.a.xyz, collider.b.xyz, collider.radius);
+        }
+#end
 #if mesh_colliders
         case COLLIDER_MESH: {
             return nearest_on_mesh(x, collider);
@@ -122,6 +154,16 @@ fn nearest_on(collider: Collider, x: Vector) -> Nearest {
             return nearest_on_sphere(x, first(collider.a), collider.radius);
         }
     }
+}
+
+// Velocity of the surface where it is nearest to x, which is relative to the collider, m/s.
+fn surface_velocity(collider: Collider, x: Vector, nearest: Nearest) -> Vector {
+#if spinning_colliders
+    let arm = to_3d(x - nearest.distance * nearest.outwards) - collider.a.xyz;
+    return first(collider.velocity + vec4f(cross(collider.spin.xyz, arm), 0.0));
+#else
+    return first(collider.velocity);
+#end
 }
 
 #if rotation
@@ -147,16 +189,16 @@ fn with_collider(before: ContactSum, c: u32, x: Vector, v: Vector) -> ContactSum
     if nearest.distance >= contact.reach - radius {
         return before;
     }
-    let approach = first(collider.velocity) - v;
+    let approach = surface_velocity(collider, x - offset, nearest) - v;
     let overlap = radius - nearest.distance;
     let touch =
         Touch(collider_key(c), -nearest.outwards, overlap, nearest.distance, approach, Rotation(), Vector(0.0));
-    return with_touch(before, touch, contact.walls);
+    return with_touch(before, touch, wall_pairing(before, u32(collider.spin.w)));
 #else
     if nearest.distance >= radius {
         return before;
     }
-    let approach = first(collider.velocity) - v;
+    let approach = surface_velocity(collider, x - offset, nearest) - v;
     return with_contact(before, -nearest.outwards, radius - nearest.distance, approach, contact.wall_damping);
 #end
 }

@@ -8,6 +8,9 @@
 #if !measuring
 #import fields/angular_velocity
 #end
+#if mixed_grains
+#import fields/material
+#end
 #else
 #import physics/dem/law
 #end
@@ -20,6 +23,15 @@
 #end
 
 #if rotation
+// Coefficients of the contact with grain j.
+fn pairing_with(sum: ContactSum, j: u32) -> Pairing {
+#if mixed_grains
+    return pairings[sum.material * MATERIALS + material[j]];
+#else
+    return contact.grains;
+#end
+}
+
 // The contact of grain i with grain j, at this distance of their centers.
 fn with_grain(sum: ContactSum, j: u32, normal: Vector, distance: f32, approach: Vector) -> ContactSum {
     let overlap = contact.diameter - distance;
@@ -30,7 +42,7 @@ fn with_grain(sum: ContactSum, j: u32, normal: Vector, distance: f32, approach: 
     let rest = rest_of(position[j]);
     let touch = Touch(number_of(other), normal, overlap, 0.5 * distance, approach, unpack_rotation(other), rest);
 #end
-    return with_touch(sum, touch, contact.grains);
+    return with_touch(sum, touch, pairing_with(sum, j));
 }
 #end
 
@@ -41,6 +53,9 @@ fn sum_contacts(i: u32) -> ContactSum {
     sum.grain = i;
     sum.rotation = unpack_rotation(angular_velocity[i]);
     sum.rest = rest_of(position[i]);
+#end
+#if mixed_grains
+    sum.material = material[i];
 #end
 #end
     let x = unpack(position[i]);

@@ -4,6 +4,9 @@
 // restitution is what was asked for. Along it a spring remembers how far the surfaces have slid, F = k_t ξ + c_t v_t, and
 // is cut back to Coulomb's limit μ F_n where it would pull harder (Cundall and Strack 1979; Luding 2008). Forces and torques
 // act where the surfaces meet, halfway between two centers, so that angular momentum stays.
+//
+// Cohesion pulls with a constant force while grains overlap, and less with the distance of their surfaces, in a straight line to
+// nothing at its range, so that no energy is lost by it. Coulomb's limit is of what pushes, so grains that stick rub too.
 #import common/vector
 #import physics/dem/rotation
 #import physics/dem/frictional_contact
@@ -20,6 +23,9 @@
 // What the contacts of one grain add up to.
 struct ContactSum {
     force: Vector, // N
+#if mixed_grains
+    material: u32, // number of the grain's
+#end
 #if measuring
     contacts: u32,
     normal_force: f32, // sum of magnitudes, N
@@ -43,6 +49,24 @@ struct Touch {
     approach: Vector, // velocity of the other less that of the grain, m/s
     rotation: Rotation, // of the other, rad/s; none for walls
     rest: Vector, // of the other's position, m; none for walls
+}
+
+#if materials
+// Of grains of two materials, then of a grain and a wall; a row for each material of grains.
+var<uniform> pairings: array<Pairing, 2 * MATERIALS * MATERIALS>;
+#end
+
+// Coefficients of the contact with a wall or obstacle of this material.
+fn wall_pairing(sum: ContactSum, material: u32) -> Pairing {
+#if materials
+#if mixed_grains
+    return pairings[(MATERIALS + sum.material) * MATERIALS + material];
+#else
+    return pairings[MATERIALS * MATERIALS + material];
+#end
+#else
+    return contact.walls;
+#end
 }
 
 #if measuring
@@ -69,6 +93,9 @@ fn with_touch(before: ContactSum, touch: Touch, pairing: Pairing) -> ContactSum 
     // share of that time in which grains overlap; then an error of the step's length is an error of its square.
     let way = max(abs(normal_speed) * dt, SMALLEST_WAY);
     let share = clamp(0.5 + deep / way, 0.0, 1.0);
+#if cohesion
+    sum.force += pairing.cohesion * clamp(1.0 + deep / contact.cohesion_range, 0.0, 1.0) * normal;
+#end
     if share <= 0.0 {
         return sum;
     }

@@ -10,7 +10,8 @@ struct FrictionalContact {
     inverse_inertia: f32, // 1/(kg·m²)
     inertia: f32, // kg·m²
     global_damping: f32, // 1/s
-    @size(8) farthest: f32, // more than any coordinate, m
+    farthest: f32, // more than any coordinate, m
+    cohesion_range: f32, // distance of surfaces at which cohesion ends, m
 }
 
 var<uniform> contact: FrictionalContact;

@@ -9,7 +9,8 @@ struct Pairing {
     rolling_limit: f32, // torque over normal force, at most, m
     rolling_stiffness: f32, // N·m per radian, over the normal stiffness, m²
     rolling_damping: f32, // N·m·s, over the square root of the rolling stiffness, kg^½·m
-    @size(16) rolling_inertia: f32, // kg·m²
+    rolling_inertia: f32, // kg·m²
+    @size(12) cohesion: f32, // greatest pull, N
 }
 
 // What a contact law makes of an overlap.

@@ -4,6 +4,9 @@
 #if rotation
 #import physics/dem/friction
 #import fields/angular_velocity
+#if mixed_grains
+#import fields/material
+#end
 #else
 #import physics/dem/law
 #end
@@ -24,6 +27,9 @@ fn force_on(i: u32) -> Vector {
     sum.grain = i;
     sum.rotation = unpack_rotation(angular_velocity[i]);
     sum.rest = rest_of(position[i]);
+#if mixed_grains
+    sum.material = material[i];
+#end
 #end
     if sensed.target_body >= SIDE_TARGETS {
 #if contact_walls

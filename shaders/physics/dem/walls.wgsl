@@ -9,6 +9,8 @@
 struct ContactWalls {
     lower: vec4f, // m; far away on sides that are not such walls
     upper: vec4f,
+    lower_materials: vec4f, // numbers of the sides' materials
+    upper_materials: vec4f,
 }
 
 var<uniform> contact_walls: ContactWalls;
@@ -20,10 +22,16 @@ fn side_key(outwards: Vector) -> f32 {
     return face.x + 2.0 * face.y + 3.0 * face.z - 4.0;
 }
 
+fn side_material(outwards: Vector) -> u32 {
+    let none = Vector(0.0);
+    let lower = dot(max(-outwards, none), first(contact_walls.lower_materials));
+    return u32(lower + dot(max(outwards, none), first(contact_walls.upper_materials)));
+}
+
 fn with_side(sum: ContactSum, outwards: Vector, overlap: f32, v: Vector) -> ContactSum {
     let arm = 0.5 * contact.diameter - overlap;
     let touch = Touch(side_key(outwards), outwards, overlap, arm, -v, Rotation(), Vector(0.0));
-    return with_touch(sum, touch, contact.walls);
+    return with_touch(sum, touch, wall_pairing(sum, side_material(outwards)));
 }
 #else
 // Without a branch: a contact of zero overlap and zero approach adds nothing, and six cheap sides cost less than the

@@ -26,7 +26,8 @@ pub struct Grains {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-9, max = 1e3))]
     pub contact_time: Option<f64>,
-    /// Young's modulus of the grains' material, Pa, with `hertz`. Walls are rigid.
+    /// Young's modulus of the grains' material, Pa, with `hertz`. Walls are rigid unless their material says
+    /// otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1.0, max = 1e13))]
     pub young_modulus: Option<f64>,
@@ -55,6 +56,21 @@ pub struct Grains {
     /// How rolling is resisted, where `rolling_friction` is more than 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolling_resistance: Option<RollingResistance>,
+    /// Greatest pull between two grains, or a grain and a wall, N, with `linear` and `hertz`: as large while they touch, and
+    /// less with their distance until `cohesion_range`, as that of a bridge of liquid. 0 when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub cohesion: Option<f64>,
+    /// Distance of the surfaces at which the pull ends, metres; a tenth of the radius when left out, and at most the radius.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-12, max = 1e6))]
+    pub cohesion_range: Option<f64>,
+    /// Materials of grains, obstacles and sides besides `grains`, which is what the keys above say, with `linear` and `hertz`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub materials: Vec<GrainMaterial>,
+    /// What holds where two materials meet, in place of what would follow from both.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pairs: Vec<MaterialPair>,
     /// Dashpot coefficient η of Harada 2007, Eq. 10, in N·s/m, with `spring_dashpot`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e12))]
@@ -83,6 +99,68 @@ pub struct Grains {
 
 fn sand() -> f64 {
     2500.0
+}
+
+/// What grains, obstacles or sides are made of. What is left out is as in `grains`. Where grains meet an obstacle or a side, the
+/// latter's material says how they rub and rebound; where grains of two materials meet, it is the geometric mean of both.
+/// Springs act one after the other; walls whose material has none are rigid.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GrainMaterial {
+    /// Name, for bodies, emitters, colliders, sides and pairs.
+    pub name: String,
+    /// As `grains.friction`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub friction: Option<f64>,
+    /// As `grains.rolling_friction`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub rolling_friction: Option<f64>,
+    /// As `grains.restitution`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.001, max = 1.0))]
+    pub restitution: Option<f64>,
+    /// As `grains.cohesion`, N.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub cohesion: Option<f64>,
+    /// As `grains.spring`, N/m, with `linear`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-12, max = 1e15))]
+    pub spring: Option<f64>,
+    /// As `grains.young_modulus`, Pa, with `hertz`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1.0, max = 1e13))]
+    pub young_modulus: Option<f64>,
+    /// As `grains.poisson_ratio`, with `hertz`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 0.5))]
+    pub poisson_ratio: Option<f64>,
+}
+
+/// What holds where two materials meet; what is left out follows from both.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialPair {
+    /// Names of the two, in any order; `grains` stands for what the keys of `grains` say.
+    pub between: [String; 2],
+    /// As `grains.friction`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub friction: Option<f64>,
+    /// As `grains.rolling_friction`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub rolling_friction: Option<f64>,
+    /// As `grains.restitution`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.001, max = 1.0))]
+    pub restitution: Option<f64>,
+    /// As `grains.cohesion`, N.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub cohesion: Option<f64>,
 }
 
 /// How grains push each other.

@@ -327,6 +327,7 @@ impl Reader<'_> {
             ColliderShape::Plane { point, .. } => *point,
             ColliderShape::Box { min, max } => (*min + *max) * 0.5,
             ColliderShape::Sphere { center, .. } => *center,
+            ColliderShape::Cylinder { from, to, .. } => from.midpoint(*to),
             ColliderShape::Mesh(mesh) => {
                 let (low, high) = mesh.bounds();
                 ((low + high) * 0.5).as_vec3()

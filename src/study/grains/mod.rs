@@ -3,12 +3,15 @@
 mod collapse;
 mod collisions;
 mod heaps;
+mod hopper;
 mod surfaces;
 
 use std::path::PathBuf;
 
 use glam::Vec3;
 use serde_json::{Value, json};
+
+use hopper::Bin;
 
 use super::bench::Bench;
 use super::page::Page;
@@ -31,7 +34,27 @@ pub struct Scale {
     aspects: &'static [f64],
     /// Steps that a stack stands.
     rest: u32,
+    /// Bins that empty.
+    bins: &'static [Bin],
 }
+
+/// In two and in three dimensions.
+const BINS: &[Bin] = &[
+    Bin {
+        dimensions: 2,
+        width: 36,
+        height: 44,
+        openings: &[6.0, 8.0, 10.0, 12.0, 14.0],
+        grains: 500.0,
+    },
+    Bin {
+        dimensions: 3,
+        width: 18,
+        height: 20,
+        openings: &[4.0, 5.0, 6.0, 7.0],
+        grains: 400.0,
+    },
+];
 
 fn scale(size: Size) -> Scale {
     match size {
@@ -43,6 +66,13 @@ fn scale(size: Size) -> Scale {
             discs: 60,
             aspects: &[1.0],
             rest: 1000,
+            bins: &[Bin {
+                dimensions: 2,
+                width: 22,
+                height: 30,
+                openings: &[6.0, 8.0, 10.0],
+                grains: 150.0,
+            }],
         },
         Size::Small => Scale {
             steps: &[20, 50, 100, 200],
@@ -52,6 +82,7 @@ fn scale(size: Size) -> Scale {
             discs: 300,
             aspects: &[0.5, 1.0, 2.0, 4.0, 8.0],
             rest: 20_000,
+            bins: BINS,
         },
         Size::Full => Scale {
             steps: &[20, 50, 100, 200, 500, 1000],
@@ -61,6 +92,7 @@ fn scale(size: Size) -> Scale {
             discs: 2000,
             aspects: &[0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0],
             rest: 1_000_000,
+            bins: BINS,
         },
     }
 }
@@ -93,6 +125,10 @@ pub const PARTS: &[Part<Scale>] = &[
     Part {
         name: "collapse",
         run: |page, bench, scale| collapse::collapse(page, bench, scale),
+    },
+    Part {
+        name: "hopper",
+        run: |page, bench, scale| hopper::hopper(page, bench, scale),
     },
 ];
 

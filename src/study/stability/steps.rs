@@ -188,8 +188,8 @@ fn dam(method: Method, seconds: f64) -> Result<Case> {
 
 fn column(method: Method) -> Result<Case> {
     let scene = method.scene(block([0.5, 0.0], 1, COLUMN), |_| {})?;
-    let grains = *scene.grains().expect("grains");
-    let contact = grains.contact;
+    let grains = scene.grains().expect("grains");
+    let contact = &grains.contact;
     // What a grain's weight presses a spring at in a time unit of the contact.
     let slow = f64::from(scene.gravity.length()) * (grains.mass / contact.spring).sqrt();
     Ok(Case {
