@@ -257,7 +257,11 @@ fn the_scenes_step_is_kept_or_refused_with_one_that_fits() {
 fn strong_damping_shortens_the_step() {
     let time = valid(&block(), &["grains.shear=1000"]).time;
     assert_eq!(time.limited_by, "damping");
-    let contact = valid(&block(), &["grains.shear=1000"]).grains().unwrap().contact.clone();
+    let contact = valid(&block(), &["grains.shear=1000"])
+        .grains()
+        .unwrap()
+        .contact
+        .clone();
     let share = (contact.damping + contact.shear) * time.step / (ball_mass() / 2.0);
     assert!(share <= 0.5 && share > 0.49, "{share}");
 }

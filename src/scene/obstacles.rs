@@ -379,6 +379,15 @@ impl<'a> Obstacle<'a> {
                 let inside = (at.distance(center) < radius) != *hollow;
                 inside.then(|| center + (at - center).normalize_or(DVec3::Y) * radius)?
             }
+            ColliderShape::Cylinder {
+                from,
+                to,
+                radius,
+                hollow,
+            } => {
+                let depth = -distance_of_cylinder(at, [*from, *to], f64::from(*radius), *hollow);
+                (depth > 0.0).then(|| out_of_cylinder(at, [*from, *to], f64::from(*radius), *hollow))?
+            }
             ColliderShape::Mesh(_) => {
                 let surface = self.surface.as_ref()?;
                 surface.nearest(at, limit).filter(|_| surface.contains(at))?
@@ -425,6 +434,26 @@ impl<'a> Obstacle<'a> {
                 .as_ref()
                 .is_some_and(|surface| surface.distance(center, reach) < reach || surface.contains(center)),
         }
+    }
+}
+
+/// The point of the surface that is nearest to one in what is solid.
+#[cfg(feature = "surface")]
+fn out_of_cylinder(point: DVec3, ends: [Vec3; 2], radius: f64, hollow: bool) -> DVec3 {
+    let [from, to] = ends.map(|end| end.as_dvec3());
+    let axis = (to - from).normalize();
+    let along = axis.dot(point - from);
+    let away = point - from - along * axis;
+    let beside = away.normalize_or(axis.any_orthonormal_vector()) * (radius - away.length());
+    let length = from.distance(to);
+    let beyond = if along < length / 2.0 {
+        -along
+    } else {
+        length - along
+    };
+    match !hollow && beyond.abs() < beside.length() {
+        true => point + beyond * axis,
+        false => point + beside,
     }
 }
 
@@ -520,6 +549,28 @@ mod tests {
         assert!(full.touches(above, 0.51) && !full.touches(above, 0.49));
         assert!(hollow.touches(above, 0.21) && !hollow.touches(above, 0.19));
         assert!(full.is_deeper(DVec3::ONE, 0.49) && !full.is_deeper(DVec3::ONE, 0.51));
+    }
+
+    #[test]
+    #[cfg(feature = "surface")]
+    fn the_shortest_way_out_of_a_cylinder_is_found() {
+        let shape = |hollow| ColliderShape::Cylinder {
+            from: Vec3::new(1.0, 1.0, 0.0),
+            to: Vec3::new(1.0, 1.0, 2.0),
+            radius: 0.5,
+            hollow,
+        };
+        let (full, hollow) = (shape(false), shape(true));
+        let [full, hollow] = [&full, &hollow].map(|shape| Obstacle::new(shape, Dimensions::Three));
+        let is = |found: Option<DVec3>, x: f64, y: f64, z: f64| {
+            assert!(found.unwrap().distance(DVec3::new(x, y, z)) < 1e-6, "{found:?}");
+        };
+        is(full.way_out(DVec3::new(1.4, 1.0, 1.0), 1.0), 1.5, 1.0, 1.0);
+        is(full.way_out(DVec3::new(1.1, 1.0, 1.9), 1.0), 1.1, 1.0, 2.0);
+        is(hollow.way_out(DVec3::new(1.0, 1.75, 5.0), 1.0), 1.0, 1.5, 5.0);
+        assert_eq!(full.way_out(DVec3::new(1.6, 1.0, 1.0), 1.0), None);
+        assert_eq!(hollow.way_out(DVec3::ONE, 1.0), None);
+        assert_eq!(full.way_out(DVec3::new(1.2, 1.0, 1.0), 0.2), None);
     }
 
     #[test]

@@ -30,7 +30,7 @@ impl Reference {
             acceleration: Vec::new(),
             radius: scene.radius(),
             mass: scene.grains().unwrap().mass,
-            contact: scene.grains().unwrap().contact,
+            contact: scene.grains().unwrap().contact.clone(),
             gravity: scene.gravity.as_dvec3(),
             lower: scene.domain.min.as_dvec3(),
             upper: scene.domain.max.as_dvec3(),

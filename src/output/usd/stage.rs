@@ -223,7 +223,9 @@ fn obstacle(text: &mut String, scene: &Scene, collider: &Collider, index: usize)
     let (kind, place, size) = match &collider.shape {
         ColliderShape::Box { min, max } => ("Cube", (*min + *max) / 2.0, Some(*max - *min)),
         ColliderShape::Sphere { center, .. } => ("Sphere", *center, None),
-        ColliderShape::Plane { .. } | ColliderShape::Mesh(_) => ("Mesh", Vec3::ZERO, None),
+        ColliderShape::Plane { .. } | ColliderShape::Cylinder { .. } | ColliderShape::Mesh(_) => {
+            ("Mesh", Vec3::ZERO, None)
+        }
     };
     // The number tells obstacles of the same or no name apart.
     let name = match collider.name.as_str() {
@@ -258,6 +260,16 @@ fn obstacle(text: &mut String, scene: &Scene, collider: &Collider, index: usize)
                 &[corners.len()],
                 corners,
             );
+        }
+        ColliderShape::Cylinder {
+            from,
+            to,
+            radius,
+            hollow,
+        } => {
+            let (vertices, counts, corners) = cylinder([*from, *to], *radius, *hollow);
+            let vertices = vertices.iter().map(|v| v.to_array());
+            mesh(text, indent, vertices, &counts, corners.into_iter());
         }
         ColliderShape::Mesh(shape) => {
             let corners = shape.triangles.iter().flatten().map(|&index| index as usize);
@@ -319,6 +331,38 @@ fn obstacle(text: &mut String, scene: &Scene, collider: &Collider, index: usize)
         indent,
         format_args!("uniform token[] xformOpOrder = [{order}]\n        }}"),
     );
+}
+
+/// Vertices, corners per face, and corners of a cylinder as a prism. One that is solid outside has no caps and shows its
+/// inner side.
+fn cylinder([from, to]: [Vec3; 2], radius: f32, hollow: bool) -> (Vec<Vec3>, Vec<usize>, Vec<usize>) {
+    const SIDES: usize = 48;
+    let axis = (to - from).normalize_or(Vec3::Z);
+    let right = axis.any_orthonormal_vector();
+    let up = axis.cross(right);
+    let around = |k: usize| {
+        let (sin, cos) = (k as f32 / SIDES as f32 * std::f32::consts::TAU).sin_cos();
+        (right * cos + up * sin) * radius
+    };
+    let vertices = (0..SIDES)
+        .flat_map(|k| [from + around(k), to + around(k)])
+        .collect();
+    let mut counts = vec![4; SIDES];
+    let mut corners = Vec::new();
+    for k in 0..SIDES {
+        let next = (k + 1) % SIDES;
+        let side = [2 * k, 2 * next, 2 * next + 1, 2 * k + 1];
+        match hollow {
+            true => corners.extend(side.iter().rev()),
+            false => corners.extend(side),
+        }
+    }
+    if !hollow {
+        counts.extend([SIDES, SIDES]);
+        corners.extend((0..SIDES).rev().map(|k| 2 * k));
+        corners.extend((0..SIDES).map(|k| 2 * k + 1));
+    }
+    (vertices, counts, corners)
 }
 
 fn mesh(
