@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::bodies;
 use super::collider::{Obstacles, offset_at, velocity_between};
 use super::fluid::FLAG;
 use super::layout::{
@@ -9,8 +10,8 @@ use super::layout::{
 };
 use super::model::{Fault, Model, OwnFigures, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
-use crate::neighbors::Grid;
 use crate::neighbors::grid::voxel_reach;
+use crate::neighbors::{Grid, lists};
 use crate::scene::field::{contact_slots, contact_words};
 use crate::scene::friction::{self, Friction, REACH};
 use crate::scene::model::{ContactLaw, Dashpot, Integrator, RollingResistance, Wall};
@@ -122,6 +123,9 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         buffers.push(BufferPlan::table("distance_field", &obstacles.field, why));
     }
 
+    buffers.extend(bodies::plan(scene, given.mass, variant));
+    let has_bodies = !scene.rigid_bodies.is_empty();
+
     let pass = |file: &str, entry, why: &str| {
         PassPlan::new(&format!("physics/dem/{file}"), entry, Items::Particles, why)
     };
@@ -137,20 +141,31 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             let why = "accelerations and angular accelerations by contacts and weight";
             let each = u64::from(scene.capacity);
             buffers.push(BufferPlan::storage("contact_acceleration", each, bytes, why));
+            solver.before_search.push(pass(
+                "sum_contacts",
+                "sum_contact_forces",
+                "contact forces, torques, and what contacts remember",
+            ));
+            if has_bodies {
+                solver.before_search.push(bodies::move_bodies());
+                // Where no step does without a search, what follows each search follows each step.
+                match lists::wanted(scene) {
+                    true => solver.once_searched.push(bodies::find_members()),
+                    false => solver.after_search.push(bodies::find_members()),
+                }
+            }
             solver.before_search.extend([
-                pass(
-                    "sum_contacts",
-                    "sum_contact_forces",
-                    "contact forces, torques, and what contacts remember",
-                ),
                 pass(
                     "leapfrog",
                     "leap_grains",
                     "velocities half a step later, positions (velocity Verlet)",
                 ),
                 pass("turn", "turn_grains", "angular velocities half a step later"),
-                clock,
             ]);
+            if has_bodies {
+                solver.before_search.push(bodies::move_members());
+            }
+            solver.before_search.push(clock);
         }
         Integrator::SymplecticEuler => {
             let why = "contact forces and symplectic Euler (Rojas 2013, Eq. 7)";

@@ -151,7 +151,7 @@ fn with_collider(before: ContactSum, c: u32, x: Vector, v: Vector) -> ContactSum
     let overlap = radius - nearest.distance;
     let touch =
         Touch(collider_key(c), -nearest.outwards, overlap, nearest.distance, approach, Rotation(), Vector(0.0));
-    return with_touch(before, touch, contact.walls);
+    return with_touch(before, touch, wall_pairing(before));
 #else
     if nearest.distance >= radius {
         return before;

@@ -8,6 +8,10 @@
 #if !measuring
 #import fields/angular_velocity
 #end
+#if rigid_bodies
+#import fields/body
+#import fields/body_mass
+#end
 #else
 #import physics/dem/law
 #end
@@ -20,6 +24,19 @@
 #end
 
 #if rotation
+#if rigid_bodies
+// Coefficients of the contact with grain j.
+fn pairing_with(sum: ContactSum, j: u32) -> Pairing {
+    let mine = relative_mass(sum.body_mass);
+    let other = relative_mass(body_mass_of(j));
+    return heavier(contact.grains, 2.0 * mine * other / (mine + other));
+}
+#else
+fn pairing_with(sum: ContactSum, j: u32) -> Pairing {
+    return contact.grains;
+}
+#end
+
 // The contact of grain i with grain j, at this distance of their centers.
 fn with_grain(sum: ContactSum, j: u32, normal: Vector, distance: f32, approach: Vector) -> ContactSum {
     let overlap = contact.diameter - distance;
@@ -30,7 +47,7 @@ fn with_grain(sum: ContactSum, j: u32, normal: Vector, distance: f32, approach: 
     let rest = rest_of(position[j]);
     let touch = Touch(number_of(other), normal, overlap, 0.5 * distance, approach, unpack_rotation(other), rest);
 #end
-    return with_touch(sum, touch, contact.grains);
+    return with_touch(sum, touch, pairing_with(sum, j));
 }
 #end
 
@@ -42,6 +59,10 @@ fn sum_contacts(i: u32) -> ContactSum {
     sum.rotation = unpack_rotation(angular_velocity[i]);
     sum.rest = rest_of(position[i]);
 #end
+#end
+#if rigid_bodies
+    sum.body_mass = body_mass_of(i);
+    let own_body = body[i];
 #end
     let x = unpack(position[i]);
     let v = unpack(velocity[i]);
@@ -55,6 +76,11 @@ fn sum_contacts(i: u32) -> ContactSum {
             if within(separation, contact.reach) && j != i {
 #else
             if within(separation, contact.diameter) && j != i {
+#end
+#if rigid_bodies
+                if own_body != 0u && body[j] == own_body {
+                    continue;
+                }
 #end
                 let distance = length(separation);
                 var normal = separation / distance;

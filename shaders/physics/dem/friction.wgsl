@@ -20,6 +20,9 @@
 // What the contacts of one grain add up to.
 struct ContactSum {
     force: Vector, // N
+#if rigid_bodies
+    body_mass: f32, // of the grain's rigid body, over that of a grain; 0 where it is loose
+#end
 #if measuring
     contacts: u32,
     normal_force: f32, // sum of magnitudes, N
@@ -44,6 +47,31 @@ struct Touch {
     rotation: Rotation, // of the other, rad/s; none for walls
     rest: Vector, // of the other's position, m; none for walls
 }
+
+#if rigid_bodies
+// Of what moves when a grain is pushed, over that of a grain.
+fn relative_mass(body_mass: f32) -> f32 {
+    return select(1.0, body_mass, body_mass > 0.0);
+}
+
+// Dashpots are made for the mass of grains. Those of a mass that is larger by `share` give the same restitution where bodies
+// meet at one point.
+fn heavier(pairing: Pairing, share: f32) -> Pairing {
+    var stronger = pairing;
+    let factor = sqrt(share);
+    stronger.damping *= factor;
+    stronger.shear_damping *= factor;
+    return stronger;
+}
+
+fn wall_pairing(sum: ContactSum) -> Pairing {
+    return heavier(contact.walls, relative_mass(sum.body_mass));
+}
+#else
+fn wall_pairing(sum: ContactSum) -> Pairing {
+    return contact.walls;
+}
+#end
 
 #if measuring
 fn with_touch(before: ContactSum, touch: Touch, pairing: Pairing) -> ContactSum {

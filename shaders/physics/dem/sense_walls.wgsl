@@ -4,6 +4,9 @@
 #if rotation
 #import physics/dem/friction
 #import fields/angular_velocity
+#if rigid_bodies
+#import fields/body_mass
+#end
 #else
 #import physics/dem/law
 #end
@@ -24,6 +27,9 @@ fn force_on(i: u32) -> Vector {
     sum.grain = i;
     sum.rotation = unpack_rotation(angular_velocity[i]);
     sum.rest = rest_of(position[i]);
+#end
+#if rigid_bodies
+    sum.body_mass = body_mass_of(i);
 #end
     if sensed.target_body >= SIDE_TARGETS {
 #if contact_walls

@@ -23,7 +23,7 @@ fn side_key(outwards: Vector) -> f32 {
 fn with_side(sum: ContactSum, outwards: Vector, overlap: f32, v: Vector) -> ContactSum {
     let arm = 0.5 * contact.diameter - overlap;
     let touch = Touch(side_key(outwards), outwards, overlap, arm, -v, Rotation(), Vector(0.0));
-    return with_touch(sum, touch, contact.walls);
+    return with_touch(sum, touch, wall_pairing(sum));
 }
 #else
 // Without a branch: a contact of zero overlap and zero approach adds nothing, and six cheap sides cost less than the
