@@ -151,6 +151,19 @@ pub fn motions(scene: &Scene, states: &[BodyState]) -> Vec<BodyMotion> {
     states.iter().map(motion).collect()
 }
 
+/// Momentum (kg·m/s) and angular momentum about the scene's zero (kg·m²/s) of all bodies.
+pub fn momenta(scene: &Scene, motions: &[BodyMotion]) -> [DVec3; 2] {
+    let mut sums = [DVec3::ZERO; 2];
+    for (body, motion) in scene.rigid_bodies.iter().zip(motions) {
+        let turn = DMat3::from_quat(motion.orientation);
+        let own = turn * body.inertia * turn.transpose() * motion.angular_velocity;
+        let linear = body.mass * motion.velocity;
+        sums[0] += linear;
+        sums[1] += motion.center.cross(linear) + own;
+    }
+    sums
+}
+
 /// Energy of motion and, with this gravity (m/s²), of height above the domain's lower corner, joules.
 pub fn energies(scene: &Scene, gravity: DVec3, motions: &[BodyMotion]) -> [f64; 2] {
     let corner = scene.domain.min.as_dvec3() + scene.origin;

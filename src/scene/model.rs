@@ -301,7 +301,8 @@ pub struct Body {
     #[serde(default = "quarter")]
     #[schemars(range(min = 0.001, max = 0.5))]
     pub fraction: f64,
-    /// Makes it a rigid body; for grains whose law is `linear` or `hertz`. Its `spacing` may be as short as a grain's radius.
+    /// Makes it a rigid body; for grains whose law is `linear` or `hertz`. Its `spacing` is between a grain's
+    /// radius and its diameter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rigid: Option<Rigid>,
 }

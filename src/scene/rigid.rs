@@ -2,10 +2,11 @@
 
 mod solid;
 
+use std::collections::HashSet;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3, IVec3};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -343,11 +344,21 @@ fn points(
             .then_some((grains.position, solid));
     }
     let spacing = body.spacing.unwrap_or(2.0 * radius);
-    if spacing < radius * (1.0 - 1e-9) {
+    let bounds = [radius * (1.0 - 1e-9), 2.0 * radius * (1.0 + 1e-9)];
+    let beyond = match spacing {
+        _ if spacing < bounds[0] => Some("is less than a particle's radius"),
+        _ if spacing > bounds[1] => Some("would leave gaps between particles that others get through"),
+        _ => None,
+    };
+    if let Some(beyond) = beyond {
         report.problem(
             format!("{path}.spacing"),
-            format!("{} m is less than a particle's radius", number(spacing)),
-            format!("give at least {} m, or leave it out", number(radius)),
+            format!("{} m {beyond}", number(spacing)),
+            format!(
+                "give {} to {} m, or leave it out",
+                number(radius),
+                number(2.0 * radius)
+            ),
         );
         return None;
     }
@@ -398,7 +409,8 @@ fn points(
         },
         _ => {
             let mut unused = ChaCha8Rng::seed_from_u64(file.seed);
-            shapes::lattice(&region, dimensions, radius, spacing, 0.0, &mut unused)
+            let all = shapes::lattice(&region, dimensions, radius, spacing, 0.0, &mut unused);
+            outermost(&all, spacing)
         }
     };
     Some((points, solid))
@@ -426,7 +438,26 @@ fn layers(length: f64, radius: f64, spacing: f64) -> f64 {
     ((length - 2.0 * radius) / spacing - 1e-6).ceil().max(0.0) + 1.0
 }
 
-/// A box filled so that particles touch each of its sides from within.
+/// Points of a cubic lattice that have not all six neighbors: the inside of a body touches nothing.
+fn outermost(points: &[DVec3], spacing: f64) -> Vec<DVec3> {
+    let Some(&origin) = points.first() else {
+        return Vec::new();
+    };
+    let index = |point: DVec3| ((point - origin) / spacing).round().as_ivec3();
+    let all: HashSet<IVec3> = points.iter().map(|&point| index(point)).collect();
+    let is_inside = |point: DVec3| {
+        let at = index(point);
+        let mut axes = IVec3::AXES.iter();
+        axes.all(|&axis| all.contains(&(at + axis)) && all.contains(&(at - axis)))
+    };
+    points
+        .iter()
+        .copied()
+        .filter(|&point| !is_inside(point))
+        .collect()
+}
+
+/// A box covered so that particles touch each of its sides from within.
 fn brick(min: DVec3, max: DVec3, radius: f64, spacing: f64, dimensions: Dimensions) -> Vec<DVec3> {
     let along = |axis: usize| -> Vec<f64> {
         if axis >= dimensions.count() {
@@ -442,9 +473,16 @@ fn brick(min: DVec3, max: DVec3, radius: f64, spacing: f64, dimensions: Dimensio
         (0..layers).map(place).collect()
     };
     let [x, y, z] = [0, 1, 2].map(along);
-    let rows = y.iter().flat_map(|&y| z.iter().map(move |&z| (y, z)));
-    rows.flat_map(|(y, z)| x.iter().map(move |&x| DVec3::new(x, y, z)))
-        .collect()
+    let is_end = |along: &[f64], at: usize| at == 0 || at + 1 == along.len();
+    let mut points = Vec::new();
+    for (j, &y_at) in y.iter().enumerate() {
+        for (k, &z_at) in z.iter().enumerate() {
+            let on_face = is_end(&y, j) || dimensions == Dimensions::Three && is_end(&z, k);
+            let row = x.iter().enumerate().filter(|&(i, _)| on_face || is_end(&x, i));
+            points.extend(row.map(|(_, &x_at)| DVec3::new(x_at, y_at, z_at)));
+        }
+    }
+    points
 }
 
 /// Evenly spread on a circle.

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::Coordinates;
 
-/// A rigid body made of its particles, which keep their places in it (Harada 2007, GPU Gems 3, chapter 29). Boxes and meshes
-/// are filled with particles; spheres and rings are covered by them. Mass and inertia are those of the solid shape.
+/// A rigid body made of its particles, which keep their places in it (Harada 2007, GPU Gems 3, chapter 29). They cover it from
+/// within, one layer deep. Mass and inertia are those of the solid shape, or of all its particles where these come from a file.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rigid {

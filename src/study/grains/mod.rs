@@ -1,5 +1,6 @@
 //! `sliceflow study grains`: grains that rotate and rub against closed forms, and heaps of them.
 
+mod bodies;
 mod collapse;
 mod collisions;
 mod heaps;
@@ -31,6 +32,8 @@ pub struct Scale {
     aspects: &'static [f64],
     /// Steps that a stack stands.
     rest: u32,
+    /// Of particles on a ball that rolls, in their radii.
+    spacings: &'static [f64],
 }
 
 fn scale(size: Size) -> Scale {
@@ -43,6 +46,7 @@ fn scale(size: Size) -> Scale {
             discs: 60,
             aspects: &[1.0],
             rest: 1000,
+            spacings: &[1.0],
         },
         Size::Small => Scale {
             steps: &[20, 50, 100, 200],
@@ -52,6 +56,7 @@ fn scale(size: Size) -> Scale {
             discs: 300,
             aspects: &[0.5, 1.0, 2.0, 4.0, 8.0],
             rest: 20_000,
+            spacings: &[1.0, 1.25, 1.5, 2.0],
         },
         Size::Full => Scale {
             steps: &[20, 50, 100, 200, 500, 1000],
@@ -61,6 +66,7 @@ fn scale(size: Size) -> Scale {
             discs: 2000,
             aspects: &[0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0],
             rest: 1_000_000,
+            spacings: &[1.0, 1.1, 1.25, 1.5, 1.75, 2.0],
         },
     }
 }
@@ -93,6 +99,10 @@ pub const PARTS: &[Part<Scale>] = &[
     Part {
         name: "collapse",
         run: |page, bench, scale| collapse::collapse(page, bench, scale),
+    },
+    Part {
+        name: "bodies",
+        run: |page, bench, scale| bodies::bodies(page, bench, scale),
     },
 ];
 
