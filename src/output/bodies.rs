@@ -4,6 +4,8 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use glam::DQuat;
+
 use super::Sink;
 use super::sensors::{FIRST_COLUMNS, TableFile};
 use crate::error::Result;
@@ -69,6 +71,11 @@ fn rows(frame: &Frame, dimensions: Dimensions) -> String {
     rows
 }
 
+/// About z, from −π to π, rad.
+fn angle(orientation: DQuat) -> f64 {
+    2.0 * (orientation.z * orientation.w.signum()).atan2(orientation.w.abs())
+}
+
 fn values(body: &BodyMotion, dimensions: Dimensions) -> Vec<f64> {
     let &BodyMotion {
         center,
@@ -80,7 +87,7 @@ fn values(body: &BodyMotion, dimensions: Dimensions) -> Vec<f64> {
         Dimensions::Two => vec![
             center.x,
             center.y,
-            2.0 * orientation.z.atan2(orientation.w),
+            angle(orientation),
             velocity.x,
             velocity.y,
             angular_velocity.z,
@@ -98,7 +105,7 @@ fn values(body: &BodyMotion, dimensions: Dimensions) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use glam::{DQuat, DVec3};
+    use glam::DVec3;
 
     use super::*;
 

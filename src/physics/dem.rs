@@ -198,9 +198,16 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             "what measures are divided by",
         ));
     }
-    if statistics || request.has_column("contacts") || request.has_column("pressure") {
+    let of_contacts = request.has_column("contacts") || request.has_column("pressure");
+    if statistics || of_contacts && !has_bodies {
         let why = "contacts, energies and columns that contacts give, once a frame";
         solver.measure.push(pass("measure", "measure_grains", why));
+    }
+    if of_contacts && has_bodies {
+        let why = "columns that contacts give, once a frame";
+        solver
+            .measure
+            .push(pass("measure_columns", "measure_columns", why));
     }
     if request.has_column("density") {
         let why = "density around each grain, once a frame";

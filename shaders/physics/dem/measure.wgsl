@@ -20,11 +20,13 @@ fn measure_grains(thread: Thread) {
     var sum = ContactSum();
     if alive {
         sum = sum_contacts(i);
+#if !rigid_bodies
 #if column_contacts
         contacts[i] = sum.contacts;
 #end
 #if column_pressure
         pressure[i] = sum.normal_force / measure.surface;
+#end
 #end
     }
 #if statistics

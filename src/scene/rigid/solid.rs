@@ -174,7 +174,7 @@ mod tests {
         for index in 0..steps * steps * steps {
             let place = [index % steps, index / steps % steps, index / steps / steps];
             let point = DVec3::from(place.map(|at| (f64::from(at) + 0.5) / f64::from(steps) * 2.0 - 0.5))
-                + DVec3::new(-0.2, 0.4, -0.5);
+                + DVec3::new(-0.2, 1.1, -0.5);
             let height = (point - from).dot(along);
             let aside = (point - from - along * height).length();
             if (0.0..=1.0).contains(&height) && aside <= radius {
