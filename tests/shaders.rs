@@ -189,8 +189,16 @@ fn friction_plans() -> Vec<Plan> {
     let mut plans = Vec::new();
     for dimensions in [2, 3] {
         let sensors = sensors(dimensions, false);
+        let at = |numbers: [f64; 3]| format!("{:?}", &numbers[..dimensions]);
+        let rigid = format!(
+            r#"bodies=[{{"shape":{{"kind":"box","min":{},"max":{}}},"rigid":{{}}}}]"#,
+            at([0.0, 0.1, 0.0]),
+            at([0.3, 0.4, 0.3])
+        );
         for more in [
             &["grains.global_damping=0.1"][..],
+            &["grains.rolling_friction=0.1", &*rigid],
+            &[&*rigid, "neighbors.storage=pool"],
             &["grains.rolling_friction=0.1", "time.adaptive=true"],
             &[
                 "grains.rolling_friction=0.1",

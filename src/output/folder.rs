@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::record::{Record, frame_of, is_like_ours, names};
 use super::text::count;
-use super::{disk, sensors};
+use super::{bodies, disk, sensors};
 use crate::error::{Error, Result};
 use crate::files;
 
@@ -95,9 +95,15 @@ impl Folder {
         self.path.join(format!("sensor_{name}.csv"))
     }
 
-    /// Tables of sensors.
-    pub fn sensor_tables(&self) -> Result<Vec<PathBuf>> {
-        let is_named = |name: &String| name.starts_with("sensor") && name.ends_with(".csv");
+    /// The table of rigid bodies.
+    pub fn bodies(&self) -> PathBuf {
+        self.path.join(bodies::NAME)
+    }
+
+    /// Tables of sensors and of rigid bodies.
+    pub fn tables(&self) -> Result<Vec<PathBuf>> {
+        let is_named =
+            |name: &String| name == bodies::NAME || name.starts_with("sensor") && name.ends_with(".csv");
         let tables = names(&self.path)?.into_iter().filter(is_named);
         let tables = tables.map(|name| self.path.join(name));
         Ok(tables.filter(|path| sensors::is_table(path)).collect())

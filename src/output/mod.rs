@@ -1,6 +1,7 @@
 //! What a run leaves behind. Each [`Sink`] turns finished frames into files; [`run()`] drives them.
 
 mod bar;
+mod bodies;
 mod checkpoint;
 mod clock;
 pub mod compare;

@@ -10,7 +10,7 @@ use serde::Deserialize;
 
 use super::folder::numbered;
 use super::manifest::Files;
-use super::{disk, sensors};
+use super::{bodies, disk, sensors};
 use crate::error::Result;
 use crate::files;
 use crate::scene::column::{COLUMNS, VECTORS};
@@ -20,7 +20,14 @@ const NUMBER: &str = "NNNNNN";
 /// What frames' files begin with.
 const KINDS: [&str; 4] = ["frame_", "particles_", "checkpoint_", "surface_"];
 /// What other files of runs begin with.
-const OTHERS: [&str; 5] = ["run.json", "stats.jsonl", "particles.pvd", "sensor", ".sliceflow"];
+const OTHERS: [&str; 6] = [
+    "run.json",
+    "stats.jsonl",
+    "particles.pvd",
+    "sensor",
+    bodies::NAME,
+    ".sliceflow",
+];
 
 /// Files that a run has written, or will write.
 #[derive(Debug, Default)]

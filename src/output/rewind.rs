@@ -58,7 +58,7 @@ impl Folder {
             self.remove_folder(folder)?;
         }
         cut_lines(&self.statistics(), last, 0, frame_of_statistics)?;
-        for table in self.sensor_tables()? {
+        for table in self.tables()? {
             // A table of no frame begins anew with its first line.
             cut_lines(&table, last, usize::from(last.is_some()), frame_of_sample)?;
         }

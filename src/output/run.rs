@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::bodies::{self, BodyFile};
 use super::configuration::Configuration;
 use super::drive::{Launch, Start, drive};
 use super::folder::Folder;
@@ -54,6 +55,11 @@ impl Outputs {
         wanted
     }
 
+    /// Whether there is a table of rigid bodies, which belongs to the figures of a run.
+    fn writes_bodies(&self, scene: &Scene) -> bool {
+        self.statistics && !scene.rigid_bodies.is_empty()
+    }
+
     pub(super) fn files(&self, scene: &Scene) -> Vec<Files> {
         let [width, height] = scene.render.size;
         let mut files = vec![Files {
@@ -75,6 +81,12 @@ impl Outputs {
             files.push(Files {
                 name: "stats.jsonl".into(),
                 about,
+            });
+        }
+        if self.writes_bodies(scene) {
+            files.push(Files {
+                name: bodies::NAME.into(),
+                about: "a row for each rigid body in each frame; units are in the first line".into(),
             });
         }
         for profile in sensors::tables(scene) {
@@ -114,6 +126,9 @@ impl Outputs {
         }
         if self.statistics {
             sinks.push(Box::new(StatisticsFile::open(folder.statistics())?));
+        }
+        if self.writes_bodies(scene) {
+            sinks.push(Box::new(BodyFile::open(folder.bodies(), scene.dimensions)?));
         }
         if !scene.sensors.list.is_empty() {
             sinks.push(Box::new(SensorFiles::open(folder.clone(), scene)?));

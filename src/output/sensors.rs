@@ -33,7 +33,8 @@ struct Table {
     profile: Option<usize>,
 }
 
-struct TableFile {
+/// A table of sensors, or of bodies, to which frames append rows.
+pub(super) struct TableFile {
     path: PathBuf,
     file: File,
 }
@@ -58,7 +59,8 @@ impl SensorFiles {
 }
 
 impl TableFile {
-    fn open(path: PathBuf, header: &str) -> Result<Self> {
+    /// Goes on behind the rows that are there; begins with the header where there are none.
+    pub(super) fn open(path: PathBuf, header: &str) -> Result<Self> {
         let failed = |reason| disk::failed(&path, "create", reason);
         let mut file = files::append(&path).map_err(failed)?;
         if file.metadata().map_err(failed)?.len() == 0 {
@@ -67,7 +69,7 @@ impl TableFile {
         Ok(Self { path, file })
     }
 
-    fn append(&mut self, rows: &str) -> Result<()> {
+    pub(super) fn append(&mut self, rows: &str) -> Result<()> {
         // An open file can be written although nobody can find it any more.
         if !self.path.exists() {
             return Err(disk::failed(&self.path, "find", ErrorKind::NotFound.into()));
@@ -75,6 +77,12 @@ impl TableFile {
         self.file
             .write_all(rows.as_bytes())
             .map_err(|reason| disk::failed(&self.path, "write", reason))
+    }
+
+    /// Waits until all of it is safe from a power cut.
+    pub(super) fn save(&self) -> Result<()> {
+        let saved = self.file.sync_all();
+        saved.map_err(|reason| disk::failed(&self.path, "save", reason))
     }
 }
 
@@ -88,11 +96,7 @@ impl Sink for SensorFiles {
     }
 
     fn flush(&mut self) -> Result<()> {
-        for TableFile { path, file } in self.tables.iter().map(|table| &table.file) {
-            file.sync_all()
-                .map_err(|reason| disk::failed(path, "save", reason))?;
-        }
-        Ok(())
+        self.tables.iter().try_for_each(|table| table.file.save())
     }
 
     fn finish(&mut self) -> Result<()> {

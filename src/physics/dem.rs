@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::bodies;
 use super::collider::{Obstacles, offset_at, velocity_between};
 use super::fluid::FLAG;
 use super::layout::{
@@ -9,8 +10,8 @@ use super::layout::{
 };
 use super::model::{Fault, Model, OwnFigures, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
-use crate::neighbors::Grid;
 use crate::neighbors::grid::voxel_reach;
+use crate::neighbors::{Grid, lists};
 use crate::scene::field::{contact_slots, contact_words};
 use crate::scene::friction::{self, Friction};
 use crate::scene::model::{ContactLaw, Dashpot, Integrator, RollingResistance, Wall};
@@ -137,6 +138,9 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         buffers.push(BufferPlan::table("distance_field", &obstacles.field, why));
     }
 
+    buffers.extend(bodies::plan(scene, given.mass, variant));
+    let has_bodies = !scene.rigid_bodies.is_empty();
+
     let pass = |file: &str, entry, why: &str| {
         PassPlan::new(&format!("physics/dem/{file}"), entry, Items::Particles, why)
     };
@@ -152,20 +156,31 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             let why = "accelerations and angular accelerations by contacts and weight";
             let each = u64::from(scene.capacity);
             buffers.push(BufferPlan::storage("contact_acceleration", each, bytes, why));
+            solver.before_search.push(pass(
+                "sum_contacts",
+                "sum_contact_forces",
+                "contact forces, torques, and what contacts remember",
+            ));
+            if has_bodies {
+                solver.before_search.push(bodies::move_bodies());
+                // Where no step does without a search, what follows each search follows each step.
+                match lists::wanted(scene) {
+                    true => solver.once_searched.push(bodies::find_members()),
+                    false => solver.after_search.push(bodies::find_members()),
+                }
+            }
             solver.before_search.extend([
-                pass(
-                    "sum_contacts",
-                    "sum_contact_forces",
-                    "contact forces, torques, and what contacts remember",
-                ),
                 pass(
                     "leapfrog",
                     "leap_grains",
                     "velocities half a step later, positions (velocity Verlet)",
                 ),
                 pass("turn", "turn_grains", "angular velocities half a step later"),
-                clock,
             ]);
+            if has_bodies {
+                solver.before_search.push(bodies::move_members());
+            }
+            solver.before_search.push(clock);
         }
         Integrator::SymplecticEuler => {
             let why = "contact forces and symplectic Euler (Rojas 2013, Eq. 7)";
@@ -198,9 +213,16 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             "what measures are divided by",
         ));
     }
-    if statistics || request.has_column("contacts") || request.has_column("pressure") {
+    let of_contacts = request.has_column("contacts") || request.has_column("pressure");
+    if statistics || of_contacts && !has_bodies {
         let why = "contacts, energies and columns that contacts give, once a frame";
         solver.measure.push(pass("measure", "measure_grains", why));
+    }
+    if of_contacts && has_bodies {
+        let why = "columns that contacts give, once a frame";
+        solver
+            .measure
+            .push(pass("measure_columns", "measure_columns", why));
     }
     if request.has_column("density") {
         let why = "density around each grain, once a frame";

@@ -220,6 +220,44 @@ shared_struct! {
 }
 
 shared_struct! {
+    /// What a rigid body is made of.
+    pub struct BodyShape {
+        /// Id of its first particle.
+        pub first: u32,
+        /// Number of its particles.
+        pub count: u32,
+        /// 1/kg.
+        pub inverse_mass: f32,
+        /// Of one grain, kg.
+        pub grain_mass: f32,
+        /// Columns, along the body's own axes, 1/(kg·m²).
+        pub inverse_inertia: [[f32; 4]; 3],
+    }
+}
+
+shared_struct! {
+    /// How a rigid body moves.
+    pub struct BodyState {
+        /// Of its center of mass, metres; beside it, its mass over that of a grain.
+        pub center: [f32; 4],
+        /// What rounding has left out of the center, metres.
+        pub center_rest: [f32; 4],
+        /// m/s.
+        pub velocity: [f32; 4],
+        /// Half a step ago, m/s; beside it, how long the last step was, seconds.
+        pub half_velocity: [f32; 4],
+        /// rad/s.
+        pub angular_velocity: [f32; 4],
+        /// Angular momentum half a step ago, kg·m²/s.
+        pub half_momentum: [f32; 4],
+        /// Quaternion x, y, z, w that turns the body's own axes to the scene's.
+        pub orientation: [f32; 4],
+        /// What rounding has left out of it.
+        pub orientation_rest: [f32; 4],
+    }
+}
+
+shared_struct! {
     pub struct Collider {
         /// [`Collider::PLANE`] and so on.
         pub kind: u32,
@@ -468,6 +506,8 @@ pub const SHARED: &[SharedLayout] = &[
     Pairing::LAYOUT,
     FrictionalContact::LAYOUT,
     Motion::LAYOUT,
+    BodyShape::LAYOUT,
+    BodyState::LAYOUT,
     Collider::LAYOUT,
     Measure::LAYOUT,
     Fluid::LAYOUT,

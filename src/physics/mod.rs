@@ -1,5 +1,6 @@
 //! Solvers: parameters and an ordered list of passes each. None knows the grid.
 
+pub mod bodies;
 pub mod collider;
 pub mod dem;
 pub mod dfsph;

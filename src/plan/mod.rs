@@ -230,6 +230,12 @@ impl Plan {
                     "leave the column `material` out, or describe several fluids in fluid.materials",
                 ));
             }
+            Some("body") => {
+                return Err(Error::usage(
+                    "no particle is part of a rigid body",
+                    "leave the column `body` out, or make bodies `rigid`",
+                ));
+            }
             Some(name) => {
                 return Err(Error::usage(
                     format!("particles of this scene have no {}", name.replace('_', " ")),

@@ -15,6 +15,7 @@ use super::grain_materials;
 use super::mesh::Mesh;
 use super::model::{self, Arrangement, Body, SceneFile, Shape};
 use super::obstacles::{self, FILE_HELP, check_corners, transform};
+use super::rigid::{self, RigidBody};
 use super::shapes::{self, Region};
 use super::text::number;
 use super::{Collider, Dimensions, Particles, particle_file};
@@ -22,6 +23,8 @@ use super::{Collider, Dimensions, Particles, particle_file};
 /// The particles that are there from the start, in the order of the bodies.
 pub struct Filled {
     pub particles: Particles,
+    /// Those of them that are parts of rigid bodies are these bodies'.
+    pub rigid: Vec<RigidBody>,
     /// Which of them belong to each body.
     pub bodies: Vec<std::ops::Range<usize>>,
 }
@@ -43,48 +46,60 @@ pub fn fill(
     let mut placed = Placed::new(2.0 * nearest);
     let mut bodies = Vec::new();
     let mut particles = Particles::default();
+    let mut rigid = Vec::new();
     for (i, body) in file.bodies.iter().enumerate() {
         let path = format!("bodies[{i}]");
         let first = particles.len();
         bodies.push(first..first);
-        let Some(mut grains) = grains(i, body, fillings[i], file, frame, folder, report) else {
-            continue;
-        };
-        let farthest = grains
-            .position
-            .iter()
-            .map(|p| p.abs().max_element())
-            .fold(0.0, f64::max);
-        if farthest > LARGEST_COORDINATE {
-            report.problem(
-                &path,
-                format!("a particle lies {} m from the domain's center", number(farthest)),
-                format!("give coordinates below {} m", number(LARGEST_COORDINATE)),
-            );
+        if let Some(given) = &body.rigid {
+            for mut one in rigid::bodies(i, body, given, file, frame, folder, report) {
+                one.first = particles.len() as u32;
+                let grains = one.particles();
+                let all = grains.position.len();
+                let Some(grains) = fitted(&path, grains, file.radius(), &placed, frame, colliders, report)
+                else {
+                    break;
+                };
+                if grains.position.len() < all {
+                    let lost = all - grains.position.len();
+                    report.problem(
+                        &path,
+                        format!("a rigid body would lose {lost} of its {all} particles to others"),
+                        "move it, or make it smaller",
+                    );
+                    break;
+                }
+                placed.add(&grains.position, i);
+                rigid.push(one);
+                add_material(&path, body, grains.position.len(), file, &mut particles, report);
+                add(&mut particles, &grains, |_| DVec3::ZERO);
+            }
+            bodies[i] = first..particles.len();
             continue;
         }
+        let Some(grains) = grains(i, body, fillings[i], file, frame, folder, report) else {
+            continue;
+        };
         if grains.position.is_empty() {
             let help = format!("make its shape larger or {} smaller", file.size());
             report.problem(&path, "is empty: not one particle fits", help);
             continue;
         }
-        let reach = reach(&fillings[i]);
-        fit::check_walls(&path, &grains.position, reach, frame, report);
-        fit::remove_inside_colliders(&path, &mut grains, colliders, reach, frame.dimensions, report);
-        fit::remove_overlaps(&path, &mut grains, &placed, report);
+        let Some(grains) = fitted(
+            &path,
+            grains,
+            reach(&fillings[i]),
+            &placed,
+            frame,
+            colliders,
+            report,
+        ) else {
+            continue;
+        };
         if i + 1 < file.bodies.len() {
             placed.add(&grains.position, i);
         }
-        particles
-            .position
-            .extend(grains.position.iter().map(|p| p.as_vec3()));
-        if grain_materials::are_mixed(file) {
-            let name = body.material.as_deref();
-            let material = grain_materials::number(&format!("{path}.material"), name, file, report);
-            particles
-                .material
-                .extend(grains.position.iter().map(|_| material));
-        }
+        add_material(&path, body, grains.position.len(), file, &mut particles, report);
         if let Some(fluid) = &file.fluid {
             fill_fluid(
                 &path,
@@ -101,13 +116,82 @@ pub fn fill(
             Some(flow) => fluid::flow_at(flow, frame.dimensions, *p + frame.origin).0,
             None => DVec3::ZERO,
         };
-        let velocity = grains.velocity.iter().zip(&grains.position);
-        particles
-            .velocity
-            .extend(velocity.map(|(v, p)| (*v + flow(p)).as_vec3()));
+        add(&mut particles, &grains, flow);
         bodies[i] = first..particles.len();
     }
-    Filled { particles, bodies }
+    if rigid.len() > rigid::MOST_BODIES {
+        report.problem(
+            "bodies",
+            format!("{} rigid bodies", rigid.len()),
+            format!("stay at or below {}", rigid::MOST_BODIES),
+        );
+    }
+    rigid::mark(
+        &rigid,
+        file.density(),
+        file.radius(),
+        frame.dimensions,
+        &mut particles,
+    );
+    Filled {
+        particles,
+        rigid,
+        bodies,
+    }
+}
+
+/// Adds grains, whose velocity is their own and what `flow` says at their place.
+fn add(particles: &mut Particles, grains: &Grains, flow: impl Fn(&DVec3) -> DVec3) {
+    let position = grains.position.iter().map(|p| p.as_vec3());
+    particles.position.extend(position);
+    let velocity = grains.velocity.iter().zip(&grains.position);
+    let velocity = velocity.map(|(v, p)| (*v + flow(p)).as_vec3());
+    particles.velocity.extend(velocity);
+}
+
+/// The grains of a body that find room; `None` where one lies too far away. `reach` is how near they come to others, metres.
+fn fitted(
+    path: &str,
+    mut grains: Grains,
+    reach: f64,
+    placed: &Placed,
+    frame: &Frame,
+    colliders: &[Collider],
+    report: &mut Report,
+) -> Option<Grains> {
+    let farthest = grains
+        .position
+        .iter()
+        .map(|p| p.abs().max_element())
+        .fold(0.0, f64::max);
+    if farthest > LARGEST_COORDINATE {
+        report.problem(
+            path,
+            format!("a particle lies {} m from the domain's center", number(farthest)),
+            format!("give coordinates below {} m", number(LARGEST_COORDINATE)),
+        );
+        return None;
+    }
+    fit::check_walls(path, &grains.position, reach, frame, report);
+    fit::remove_inside_colliders(path, &mut grains, colliders, reach, frame.dimensions, report);
+    fit::remove_overlaps(path, &mut grains, placed, report);
+    Some(grains)
+}
+
+/// Of `count` grains of a body, where grains differ in it.
+fn add_material(
+    path: &str,
+    body: &Body,
+    count: usize,
+    file: &SceneFile,
+    particles: &mut Particles,
+    report: &mut Report,
+) {
+    if grain_materials::are_mixed(file) {
+        let name = body.material.as_deref();
+        let material = grain_materials::number(&format!("{path}.material"), name, file, report);
+        particles.material.extend(std::iter::repeat_n(material, count));
+    }
 }
 
 /// What a fluid's particles have besides: their pressure at the start and their material.
@@ -221,15 +305,12 @@ fn grains(
         Arrangement::Lattice => spacing,
         Arrangement::Random => 2.0 * radius,
     };
-    let tried = lattice_points(&region, frame.dimensions, between);
-    let content = region.content(frame.dimensions) / between.powi(frame.dimensions.count() as i32);
-    let most = report.allowance.particles as f64;
-    // Of a thin shape, most points of the lattice around it lie outside; going through them takes time all the same.
-    let count = if tried > most {
-        tried
-    } else {
-        content.max(tried / 16.0).min(tried)
-    };
+    let count = expected_points(
+        &region,
+        frame.dimensions,
+        between,
+        report.allowance.particles as f64,
+    );
     if !report.room_for(&path, "would hold about", count, "particles", &smaller(file)) {
         return None;
     }
@@ -266,12 +347,18 @@ fn grains(
     Some(Grains { position, velocity })
 }
 
-fn smaller(file: &SceneFile) -> String {
+pub(super) fn smaller(file: &SceneFile) -> String {
     format!("make it smaller or {} larger", file.size())
 }
 
 /// Local coordinates.
-fn region(path: &str, shape: &Shape, frame: &Frame, folder: &Path, report: &mut Report) -> Option<Region> {
+pub(super) fn region(
+    path: &str,
+    shape: &Shape,
+    frame: &Frame,
+    folder: &Path,
+    report: &mut Report,
+) -> Option<Region> {
     let mut point = |key: &str, given: &model::Coordinates| {
         let point = report.vector(&format!("{path}.{key}"), given, frame.dimensions);
         frame.local(point)
@@ -313,6 +400,18 @@ fn region(path: &str, shape: &Shape, frame: &Frame, folder: &Path, report: &mut 
     }
 }
 
+/// Points of a lattice in the region, about, before any is made; where there are more than `most` in its bounds, those.
+pub(super) fn expected_points(region: &Region, dimensions: Dimensions, spacing: f64, most: f64) -> f64 {
+    let tried = lattice_points(region, dimensions, spacing);
+    let content = region.content(dimensions) / spacing.powi(dimensions.count() as i32);
+    // Of a thin shape, most points of the lattice around it lie outside; going through them takes time all the same.
+    if tried > most {
+        tried
+    } else {
+        content.max(tried / 16.0).min(tried)
+    }
+}
+
 /// Points of a lattice in the region's bounds, before any is made.
 fn lattice_points(region: &Region, dimensions: Dimensions, spacing: f64) -> f64 {
     let size = match region {
@@ -330,7 +429,7 @@ fn lattice_points(region: &Region, dimensions: Dimensions, spacing: f64) -> f64 
 }
 
 /// The particles of a file, by id.
-fn from_file(
+pub(super) fn from_file(
     path: &str,
     file: &str,
     placement: &model::Placement,

@@ -41,6 +41,8 @@ pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
     let names = names.filter(|name| !flat || !["z", "velocity_z"].contains(name));
     let materials = materials(known.file);
     let names = names.filter(|name| materials > 1 || *name != "material");
+    let bodies = known.particles.body.iter().max().copied().unwrap_or(0);
+    let names = names.filter(|name| bodies > 0 || *name != "body");
     let Some(column) = column::find(&color.by).filter(|column| names.clone().any(|name| name == column.name))
     else {
         let (what, help) = match column::find(&color.by) {
@@ -50,6 +52,10 @@ pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
                     "describe several fluids in fluid.materials, name one of grains.materials in bodies, or take one of {}",
                     list(names)
                 ),
+            ),
+            Some(_) if color.by == "body" => (
+                "no particle is part of a rigid body".to_owned(),
+                format!("make bodies `rigid`, or take one of {}", list(names)),
             ),
             Some(_) => (
                 format!("a 2D scene has no \"{}\"", color.by),
@@ -118,6 +124,10 @@ fn default_range(column: &str, known: &Known) -> [f64; 2] {
         "material" => {
             let materials = materials(file);
             [0.0, materials.max(2) as f64 - 1.0]
+        }
+        "body" => {
+            let bodies = known.particles.body.iter().max().copied().unwrap_or(0);
+            [0.0, f64::from(bodies.max(1))]
         }
         // Grains of one size touch at most six others in a plane, twelve in space.
         "contacts" => [0.0, if dimensions == 2 { 6.0 } else { 12.0 }],

@@ -224,6 +224,30 @@ pub const FIELDS: &[Field] = &[
         ..ROW
     },
     Field {
+        name: "body",
+        kind: Kind::Unsigned,
+        about: "number of the rigid body that the particle is a part of, from 1 on; 0 for loose grains",
+        column: Some(Source::Field),
+        travels: Travels::Kept,
+        saved: true,
+        has: has_rigid_bodies,
+        start: Some(|new| bytemuck::cast_slice(&new.free.body).to_vec()),
+        ..ROW
+    },
+    Field {
+        name: "body_mass",
+        about: "mass of the rigid body that the particle is a part of over that of a grain; 0 for loose grains",
+        travels: Travels::Stepped,
+        has: has_rigid_bodies,
+        start: Some(|new| {
+            let mut all = new.free.body_mass.clone();
+            all.resize(new.ids.len(), 0.0);
+            bytemuck::cast_slice(&all).to_vec()
+        }),
+        beside: Some("velocity"),
+        ..ROW
+    },
+    Field {
         name: "angular_velocity",
         kind: Kind::Vector,
         unit: "rad/s",
@@ -346,6 +370,10 @@ pub const FIELDS: &[Field] = &[
         ..ROW
     },
 ];
+
+fn has_rigid_bodies(scene: &Scene) -> bool {
+    !scene.rigid_bodies.is_empty()
+}
 
 /// No angular velocity, and beside it the key by which contacts remember the grain.
 fn contact_key(id: u32) -> [f32; 4] {

@@ -201,7 +201,6 @@ mod tests {
         for path in [
             "bodies[0].flow",
             "bodies[0].pressure",
-            "colliders[0].spin",
             "domain.side_velocities.y_max",
         ] {
             assert!(told.contains(path), "{path}: {told}");

@@ -36,6 +36,7 @@ pub(crate) mod obstacles;
 pub mod particle_file;
 pub(crate) mod ply;
 mod points;
+pub mod rigid;
 mod schedule;
 pub mod sensors;
 pub mod set;
@@ -58,6 +59,7 @@ use column::Column;
 use field::Field;
 use fluid::Fluid;
 use friction::Friction;
+use rigid::RigidBody;
 use sensors::Sensors;
 
 /// A validated scene. Nothing after `scene::load` asks again whether a number makes sense.
@@ -79,6 +81,8 @@ pub struct Scene {
     /// Particles on the device when every event has happened, boundary particles included.
     pub capacity: u32,
     pub colliders: Vec<Collider>,
+    /// Bodies that particles from the start are parts of.
+    pub rigid_bodies: Vec<RigidBody>,
     /// What happens during the run, by time.
     pub schedule: Vec<Scheduled>,
     /// Fields of its particles besides those that every scene of its kind has.
@@ -307,6 +311,10 @@ pub struct Particles {
     pub start_pressure: Vec<f32>,
     /// Of several fluids, or of grains of several materials: number of their material. Empty for one.
     pub material: Vec<u32>,
+    /// Numbers of the rigid bodies that they are parts of, from 1 on; 0 for loose grains. Empty where all are loose.
+    pub body: Vec<u32>,
+    /// Masses of these bodies over that of a grain; 0 for loose grains. Empty where all are loose.
+    pub body_mass: Vec<f32>,
 }
 
 impl Particles {
@@ -324,6 +332,8 @@ impl Particles {
         self.density_deviation.append(&mut other.density_deviation);
         self.start_pressure.append(&mut other.start_pressure);
         self.material.append(&mut other.material);
+        self.body.append(&mut other.body);
+        self.body_mass.append(&mut other.body_mass);
     }
 }
 

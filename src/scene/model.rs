@@ -7,6 +7,7 @@ mod fluid;
 mod grains;
 mod neighbors;
 mod render;
+mod rigid;
 mod sensors;
 
 use schemars::JsonSchema;
@@ -20,6 +21,7 @@ pub use fluid::{
 pub use grains::{ContactLaw, Dashpot, GrainMaterial, Grains, MaterialPair, RollingResistance};
 pub use neighbors::{Addressing, Cell, Neighbors, SlicingAxis, Storage};
 pub use render::{Background, Camera, Color, Look, Projection, Render, Show, Splat, View, Water};
+pub use rigid::{Copies, Rigid};
 pub use sensors::{Sensor, SensorField, Side};
 
 /// A point, direction or velocity: two numbers in a 2D scene, three in a 3D scene. SI units, y up, right-handed.
@@ -341,6 +343,10 @@ pub struct Body {
     #[serde(default = "quarter")]
     #[schemars(range(min = 0.001, max = 0.5))]
     pub fraction: f64,
+    /// Makes it a rigid body; for grains whose law is `linear` or `hertz`. Its `spacing` is between a grain's
+    /// radius and its diameter.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rigid: Option<Rigid>,
 }
 
 fn quarter() -> f64 {

@@ -118,6 +118,7 @@ impl Scene {
             boundary: Default::default(),
             capacity: points.len() as u32,
             colliders: Vec::new(),
+            rigid_bodies: Vec::new(),
             schedule: Vec::new(),
             more_fields: Vec::new(),
             sensors: Default::default(),

@@ -399,6 +399,7 @@ impl<'a> Unroll<'a> {
             } else {
                 Vec::new()
             },
+            ..Particles::default()
         }
     }
 

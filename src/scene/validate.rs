@@ -24,6 +24,7 @@ use super::model::{
     Addressing, DensityFrom, FluidSolver, Integrator, Look, Render, SceneFile, SlicingAxis, StartPressure,
     Storage, Wall,
 };
+use super::rigid;
 use super::text::number;
 use super::{
     Action, Dimensions, Grains, Matter, Neighbors, Particles, Scene, Written, obstacles, schedule, sensors,
@@ -47,6 +48,7 @@ pub(super) fn validate(
     }
     fluid_keys::check(&file, &mut report);
     grain_keys::check(&file, &frame, &mut report);
+    rigid::check(&file, &frame, &mut report);
     let mass = mass(&file, frame.dimensions);
     let end = time::end(&file.time);
     let mut colliders = obstacles::colliders(&file, &frame, folder, end, &mut report);
@@ -55,6 +57,7 @@ pub(super) fn validate(
     let obstacles = if all_sound { &colliders[..] } else { &[] };
     let bodies::Filled {
         mut particles,
+        rigid: rigid_bodies,
         bodies,
     } = bodies::fill(&file, &fillings, &frame, obstacles, folder, &mut report);
     let frames = time::frames(&file.time, &mut report);
@@ -81,7 +84,18 @@ pub(super) fn validate(
                 contact: contacts[0].clone(),
                 mixed: grain_materials::are_mixed(&file),
             });
-            let time = time::of_grains(&file.time, frames, &contacts, mass, given.radius, &mut report);
+            let hardness = rigid::hardness(&rigid_bodies, frame.dimensions, given.radius, mass);
+            let hardened: Vec<_> = contacts
+                .iter()
+                .map(|contact| super::Contact {
+                    friction: contact
+                        .friction
+                        .as_ref()
+                        .map(|friction| Box::new(rigid::hardened(friction, hardness))),
+                    ..contact.clone()
+                })
+                .collect();
+            let time = time::of_grains(&file.time, frames, &hardened, mass, given.radius, &mut report);
             (matter.clone(), schedule.actions(matter), time)
         }
         (None, given) => {
@@ -197,6 +211,7 @@ pub(super) fn validate(
             boundary: boundary_particles,
             capacity,
             colliders,
+            rigid_bodies,
             schedule,
             more_fields: Vec::new(),
             sensors,

@@ -8,6 +8,7 @@ use super::sensors::Sample;
 use crate::neighbors::boxes::{VoxelBox, boxes};
 use crate::neighbors::{Grid, NO_VOXEL};
 use crate::physics::Model;
+use crate::physics::bodies::BodyMotion;
 use crate::physics::layout::{Convergence, Occupancy, Overflow, Packed, Sums};
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -48,6 +49,8 @@ pub struct Frame {
     pub statistics: Option<Statistics>,
     /// What sensors found since the last frame, by time.
     pub samples: Vec<Sample>,
+    /// Rigid bodies, in the order of the scene.
+    pub bodies: Vec<BodyMotion>,
     /// In order of id.
     pub columns: Vec<ColumnData>,
     pub voxels: Option<Voxels>,

@@ -29,9 +29,9 @@ use crate::gpu::readback::Ring;
 use crate::gpu::timing::Timer;
 use crate::gpu::{BufferPlan, Buffers, Gpu};
 use crate::neighbors::{Grid, boxes, lists};
-use crate::physics::Written;
 use crate::physics::collider::offset_at;
 use crate::physics::layout::{Clock, Guard, Occupancy, Overflow, Parameters, StepControl, Sums};
+use crate::physics::{Written, bodies};
 use crate::plan::Plan;
 use crate::render::Renderer;
 use crate::scene::{Action, Matter, Scene};
@@ -91,6 +91,7 @@ struct Pending {
     index: u32,
     particles: u32,
     quarantined: u32,
+    gravity: Vec3,
     searches: u32,
     reallocations: u32,
     lists_left_out: Option<String>,
@@ -437,6 +438,7 @@ impl Simulation {
             index,
             particles: self.free_particles(),
             quarantined: self.quarantined,
+            gravity: self.gravity,
             searches: self.searches_since_last_frame(index),
             reallocations: std::mem::take(&mut self.reallocations),
             lists_left_out: self.plan.lists_left_out.clone(),
@@ -534,17 +536,26 @@ impl Simulation {
         let overflow = by_name
             .get("overflow")
             .map_or_else(Overflow::default, |b| bytemuck::pod_read_unaligned(b));
+        let bodies = by_name.get("body_state").map_or_else(Vec::new, |bytes| {
+            bodies::motions(&self.scene, &bytemuck::pod_collect_to_vec(bytes))
+        });
         let statistics = self.plan.wanted.statistics.then(|| {
             let sums: Sums = bytemuck::pod_read_unaligned(by_name["sums"]);
             let occupancy: Occupancy = bytemuck::pod_read_unaligned(by_name["occupancy_count"]);
-            Statistics::new(
+            let [kinetic, potential] = bodies::energies(&self.scene, pending.gravity.as_dvec3(), &bodies);
+            let of_particles = Statistics::new(
                 &self.scene,
                 self.plan.model,
                 pending.particles,
                 sums,
                 occupancy,
                 overflow,
-            )
+            );
+            Statistics {
+                kinetic_energy: of_particles.kinetic_energy + kinetic,
+                potential_energy: of_particles.potential_energy + potential,
+                ..of_particles
+            }
         });
         let time = &self.scene.time;
         let adaptive = self.adaptive_steps(step_control.as_ref());
@@ -574,6 +585,7 @@ impl Simulation {
             samples: by_name.get("sensor_samples").map_or_else(Vec::new, |bytes| {
                 sensors::samples(&self.scene, &pending.sampled, bytes)
             }),
+            bodies,
             columns: frame::columns(&self.scene, &self.plan, &by_name),
             voxels: by_name.get("voxel_map").map(|map| {
                 let record = boxes::record(&self.scene, &pending.grid);

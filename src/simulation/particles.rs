@@ -99,8 +99,7 @@ impl Simulation {
             position: column("position")?,
             velocity: column("velocity")?,
             density_deviation: self.fluid_column(&ids, 0)?,
-            start_pressure: Vec::new(),
-            material: Vec::new(),
+            ..Particles::default()
         })
     }
 

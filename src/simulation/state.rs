@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use crate::gpu::readback;
 use crate::neighbors::layout::ListState;
 use crate::neighbors::{Grid, lists};
-use crate::physics::layout::{Clock, Overflow, Packed, StepControl, packed};
+use crate::physics::layout::{BodyState, Clock, Overflow, Packed, StepControl, packed};
 use crate::scene::allowance::MOST_PARTICLES;
 use crate::scene::field::{FIELDS, Field, Kind, Newcomers, contact_slots, contact_words};
 use crate::scene::model::Axis;
@@ -95,6 +95,7 @@ impl State {
                 "step_control" => Some((StepControl::LAYOUT.size, 1)),
                 "overflow" => Some((Overflow::LAYOUT.size, 1)),
                 "grid" => Some((Grid::LAYOUT.size, 1)),
+                "body_state" => Some((BodyState::LAYOUT.size, scene.rigid_bodies.len())),
                 name => {
                     // The scene's own first: contacts that remember more have a field of the same name.
                     let mut fields = scene.fields().chain(FIELDS);
@@ -126,6 +127,7 @@ impl State {
         if scene.has_field("material") && of.iter().any(|&material| material as usize >= materials) {
             return wrong("a particle is of no material");
         }
+        self.check_bodies(scene)?;
         let clock: Clock = self
             .buffer("clock")
             .map_or(Clock::default(), bytemuck::pod_read_unaligned);
@@ -151,6 +153,25 @@ impl State {
             return wrong("its steps have no length");
         }
         Ok(())
+    }
+
+    /// Whether the scene's rigid bodies are those of the state: particles of the same ids.
+    fn check_bodies(&self, scene: &Scene) -> std::result::Result<(), String> {
+        if !self.is_in_slot_order() || scene.rigid_bodies.is_empty() {
+            return Ok(());
+        }
+        let numbers = &scene.particles.body;
+        let of = |id: u32| numbers.get(id as usize).copied().unwrap_or(0);
+        let bodies: Vec<u32> = bytemuck::pod_collect_to_vec(self.buffer("body").unwrap_or_default());
+        let ids = self.ids();
+        let members = bodies.iter().filter(|&&body| body != 0).count();
+        let is_same = bodies.len() == ids.len()
+            && ids.iter().zip(&bodies).all(|(&id, &body)| of(id) == body)
+            && members == numbers.iter().filter(|&&body| body != 0).count();
+        match is_same && self.buffer("body_state").is_some() {
+            true => Ok(()),
+            false => Err("does not fit the scene: its rigid bodies are others".into()),
+        }
     }
 
     /// Whether all positions, velocities and accelerations are numbers, as in every state that a run has saved.
@@ -209,6 +230,16 @@ impl State {
             let position = self.buffers.iter_mut().find(|(name, _)| name == "position");
             position.expect("its vectors are there").1 = pack(&shifted);
         }
+        let bodies = self.buffers.iter_mut().find(|(name, _)| name == "body_state");
+        if let Some((_, bytes)) = bodies.filter(|_| moved != DVec3::ZERO) {
+            let mut states: Vec<BodyState> = bytemuck::pod_collect_to_vec(bytes);
+            for state in &mut states {
+                let [x, y, z, mass] = state.center;
+                let center = (Vec3::new(x, y, z).as_dvec3() + moved).as_vec3();
+                state.center = center.extend(mass).into();
+            }
+            *bytes = bytemuck::cast_slice(&states).to_vec();
+        }
         self.origin = origin;
         self
     }
@@ -230,7 +261,12 @@ impl State {
 /// Bytes of a state with `particles` particles.
 pub fn state_bytes(scene: &Scene, particles: u32) -> u64 {
     let each = saved(scene).map(|field| field.kind.bytes(scene.dimensions));
-    u64::from(particles) * each.sum::<u64>()
+    u64::from(particles) * each.sum::<u64>() + body_bytes(scene) as u64
+}
+
+/// Bytes of how rigid bodies move.
+fn body_bytes(scene: &Scene) -> usize {
+    BodyState::LAYOUT.size * scene.rigid_bodies.len()
 }
 
 /// Fields that a state holds.
@@ -285,6 +321,7 @@ impl Simulation {
             ("step_control", StepControl::LAYOUT.size),
             ("overflow", Overflow::LAYOUT.size),
             ("grid", Grid::LAYOUT.size),
+            ("body_state", body_bytes(&self.scene)),
         ];
         let mut buffers = Vec::new();
         for (name, bytes) in particles.chain(counters) {
@@ -412,6 +449,7 @@ impl Simulation {
         self.write_step_control()?;
         self.put("overflow", Some(bytemuck::bytes_of(&Overflow::default())))?;
         self.put("overflow", state.buffer("overflow"))?;
+        self.put("body_state", state.buffer("body_state"))?;
         self.write_parameters(self.scene.time.step)
     }
 

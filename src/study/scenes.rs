@@ -80,6 +80,7 @@ pub fn replaced(scene: &Scene, particles: Particles) -> Scene {
     Scene {
         capacity: (particles.len() + scene.boundary.len()) as u32,
         particles,
+        rigid_bodies: Vec::new(),
         ..scene.clone()
     }
 }

@@ -64,6 +64,7 @@ pub fn scene(dimensions: Dimensions, min: Vec3, max: Vec3, radius: f64, size: [u
         particles: Particles::default(),
         capacity: 1,
         colliders: Vec::new(),
+        rigid_bodies: Vec::new(),
         schedule: Vec::new(),
         more_fields: Vec::new(),
         sensors: Default::default(),

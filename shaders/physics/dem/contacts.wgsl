@@ -11,6 +11,10 @@
 #if mixed_grains
 #import fields/material
 #end
+#if rigid_bodies
+#import fields/body
+#import fields/body_mass
+#end
 #else
 #import physics/dem/law
 #end
@@ -26,9 +30,16 @@
 // Coefficients of the contact with grain j.
 fn pairing_with(sum: ContactSum, j: u32) -> Pairing {
 #if mixed_grains
-    return pairings[sum.material * MATERIALS + material[j]];
+    let pairing = pairings[sum.material * MATERIALS + material[j]];
 #else
-    return contact.grains;
+    let pairing = contact.grains;
+#end
+#if rigid_bodies
+    let mine = relative_mass(sum.body_mass);
+    let other = relative_mass(body_mass_of(j));
+    return heavier(pairing, 2.0 * mine * other / (mine + other));
+#else
+    return pairing;
 #end
 }
 
@@ -58,6 +69,10 @@ fn sum_contacts(i: u32) -> ContactSum {
     sum.material = material[i];
 #end
 #end
+#if rigid_bodies
+    sum.body_mass = body_mass_of(i);
+    let own_body = body[i];
+#end
     let x = unpack(position[i]);
     let v = unpack(velocity[i]);
     let home = around(i, x);
@@ -70,6 +85,11 @@ fn sum_contacts(i: u32) -> ContactSum {
             if within(separation, contact.reach) && j != i {
 #else
             if within(separation, contact.diameter) && j != i {
+#end
+#if rigid_bodies
+                if own_body != 0u && body[j] == own_body {
+                    continue;
+                }
 #end
                 let distance = length(separation);
                 var normal = separation / distance;

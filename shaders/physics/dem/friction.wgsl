@@ -26,6 +26,9 @@ struct ContactSum {
 #if mixed_grains
     material: u32, // number of the grain's
 #end
+#if rigid_bodies
+    body_mass: f32, // of the grain's rigid body, over that of a grain; 0 where it is loose
+#end
 #if measuring
     contacts: u32,
     normal_force: f32, // sum of magnitudes, N
@@ -56,16 +59,38 @@ struct Touch {
 var<uniform> pairings: array<Pairing, 2 * MATERIALS * MATERIALS>;
 #end
 
+#if rigid_bodies
+// Of what moves when a grain is pushed, over that of a grain.
+fn relative_mass(body_mass: f32) -> f32 {
+    return select(1.0, body_mass, body_mass > 0.0);
+}
+
+// Dashpots are made for the mass of grains. Those of a mass that is larger by `share` give the same restitution where bodies
+// meet at one point.
+fn heavier(pairing: Pairing, share: f32) -> Pairing {
+    var stronger = pairing;
+    let factor = sqrt(share);
+    stronger.damping *= factor;
+    stronger.shear_damping *= factor;
+    return stronger;
+}
+#end
+
 // Coefficients of the contact with a wall or obstacle of this material.
 fn wall_pairing(sum: ContactSum, material: u32) -> Pairing {
-#if materials
 #if mixed_grains
-    return pairings[(MATERIALS + sum.material) * MATERIALS + material];
+    let pairing = pairings[(MATERIALS + sum.material) * MATERIALS + material];
 #else
-    return pairings[MATERIALS * MATERIALS + material];
+#if materials
+    let pairing = pairings[MATERIALS * MATERIALS + material];
+#else
+    let pairing = contact.walls;
 #end
+#end
+#if rigid_bodies
+    return heavier(pairing, relative_mass(sum.body_mass));
 #else
-    return contact.walls;
+    return pairing;
 #end
 }
 

@@ -36,6 +36,17 @@ fn leap_grains(thread: Thread) {
         return;
     }
     let x = unpack(position[i]);
+#if rigid_bodies
+    // Particles of rigid bodies follow these.
+    let slots = number_of(contact_acceleration[i].angular);
+    if slots < 0.0 {
+        if -1.0 - slots > f32(CONTACT_SLOTS) {
+            catch_crowded(i, x, Vector(0.0));
+        }
+        next_half_step[i] = HalfStep();
+        return;
+    }
+#end
     let a = unpack(contact_acceleration[i].linear);
     let dt = number_of(contact_acceleration[i].linear);
     let before = half_step[i].velocity;

@@ -20,17 +20,23 @@ fn measure_grains(thread: Thread) {
     var sum = ContactSum();
     if alive {
         sum = sum_contacts(i);
+#if !rigid_bodies
 #if column_contacts
         contacts[i] = sum.contacts;
 #end
 #if column_pressure
         pressure[i] = sum.normal_force / measure.surface;
 #end
+#end
     }
 #if statistics
     var sums = Sums();
     if alive {
         let v = unpack(velocity[i]);
+#if rigid_bodies
+        // The host adds energies of rigid bodies.
+        let loose = select(0.0, 1.0, body[i] == 0u);
+#end
         sums.kinetic_energy = 0.5 * measure.mass * dot(v, v);
 #if rotation
         let w = length(unpack_rotation(angular_velocity[i]));
@@ -38,6 +44,10 @@ fn measure_grains(thread: Thread) {
 #end
         sums.potential_energy =
             -measure.mass * dot(first(parameters.gravity), unpack(position[i]) - first(measure.reference));
+#if rigid_bodies
+        sums.kinetic_energy *= loose;
+        sums.potential_energy *= loose;
+#end
         sums.max_speed = length(v);
         sums.max_overlap = sum.overlap;
         sums.contacts = sum.contacts;

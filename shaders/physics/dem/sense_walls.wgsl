@@ -7,6 +7,9 @@
 #if mixed_grains
 #import fields/material
 #end
+#if rigid_bodies
+#import fields/body_mass
+#end
 #else
 #import physics/dem/law
 #end
@@ -30,6 +33,9 @@ fn force_on(i: u32) -> Vector {
 #if mixed_grains
     sum.material = material[i];
 #end
+#end
+#if rigid_bodies
+    sum.body_mass = body_mass_of(i);
 #end
     if sensed.target_body >= SIDE_TARGETS {
 #if contact_walls

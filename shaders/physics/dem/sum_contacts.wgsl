@@ -16,6 +16,16 @@ fn sum_contact_forces(thread: Thread) {
     }
     let sum = sum_contacts(i);
     end_slots(i, sum.slots);
+#if rigid_bodies
+    // Of a body's particle, what its body feels by it, without what acts on the body as a whole. The number says that too.
+    if body[i] != 0u {
+        contact_acceleration[i] = Motion(
+            pack(contact.inverse_mass * sum.force),
+            pack_rotation(contact.inverse_mass * sum.torque, -1.0 - f32(sum.slots)),
+        );
+        return;
+    }
+#end
     let acceleration = acceleration_of(sum, unpack(velocity[i]));
     contact_acceleration[i] = Motion(
         pack_with(acceleration, time_step()),

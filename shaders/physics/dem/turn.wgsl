@@ -16,6 +16,11 @@ fn turn_grains(thread: Thread) {
     if i >= parameters.particle_count {
         return;
     }
+#if rigid_bodies
+    if number_of(contact_acceleration[i].angular) < 0.0 {
+        return;
+    }
+#end
     let a = unpack_rotation(contact_acceleration[i].angular);
     let dt = number_of(contact_acceleration[i].linear);
     let before = half_step[i];

@@ -93,6 +93,7 @@ pub mod samples {
             voxels: None,
             statistics: None,
             samples: Vec::new(),
+            bodies: Vec::new(),
             columns: vec![
                 column("id", Values::Unsigned(vec![0, 1])),
                 column(

@@ -1,5 +1,6 @@
 //! `sliceflow study grains`: grains that rotate and rub against closed forms, and heaps of them.
 
+mod bodies;
 mod collapse;
 mod collisions;
 mod heaps;
@@ -36,6 +37,8 @@ pub struct Scale {
     rest: u32,
     /// Bins that empty.
     bins: &'static [Bin],
+    /// Of particles on a ball that rolls, in their radii.
+    spacings: &'static [f64],
 }
 
 /// In two and in three dimensions.
@@ -73,6 +76,7 @@ fn scale(size: Size) -> Scale {
                 openings: &[6.0, 8.0, 10.0],
                 grains: 150.0,
             }],
+            spacings: &[1.0],
         },
         Size::Small => Scale {
             steps: &[20, 50, 100, 200],
@@ -83,6 +87,7 @@ fn scale(size: Size) -> Scale {
             aspects: &[0.5, 1.0, 2.0, 4.0, 8.0],
             rest: 20_000,
             bins: BINS,
+            spacings: &[1.0, 1.25, 1.5, 2.0],
         },
         Size::Full => Scale {
             steps: &[20, 50, 100, 200, 500, 1000],
@@ -93,6 +98,7 @@ fn scale(size: Size) -> Scale {
             aspects: &[0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0],
             rest: 1_000_000,
             bins: BINS,
+            spacings: &[1.0, 1.1, 1.25, 1.5, 1.75, 2.0],
         },
     }
 }
@@ -129,6 +135,10 @@ pub const PARTS: &[Part<Scale>] = &[
     Part {
         name: "hopper",
         run: |page, bench, scale| hopper::hopper(page, bench, scale),
+    },
+    Part {
+        name: "bodies",
+        run: |page, bench, scale| bodies::bodies(page, bench, scale),
     },
 ];
 
