@@ -49,12 +49,12 @@ const WAYS: [Way; 3] = [
 
 /// Eq. 1 to 7 and the listing's viscosity.
 fn papers() -> Value {
-    json!({ "density_from": "summation", "pressure_force": "symmetric", "viscosity_form": "laplacian",
+    json!({ "solver": "wcsph", "density_from": "summation", "pressure_force": "symmetric", "viscosity_form": "laplacian",
             "viscosity": 0.05, "artificial_viscosity": 0.05 })
 }
 
 fn shipped() -> Value {
-    json!({ "viscosity": 0.05, "artificial_viscosity": 0.05 })
+    json!({ "solver": "wcsph", "viscosity": 0.05, "artificial_viscosity": 0.05 })
 }
 
 pub struct Scale {

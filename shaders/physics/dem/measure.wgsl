@@ -20,7 +20,7 @@ fn measure_grains(thread: Thread) {
     var sum = ContactSum();
     if alive {
         sum = sum_contacts(i);
-#if !rigid_bodies
+#if !rotation
 #if column_contacts
         contacts[i] = sum.contacts;
 #end

@@ -1,5 +1,5 @@
-// At the end of a frame, in scenes with rigid bodies: columns that contacts give. One pass for these and for figures would bind
-// too many buffers there.
+// At the end of a frame, in scenes of grains that rotate: columns that contacts give. One pass for these and for figures would
+// bind too many buffers there.
 #flag measuring
 #import common/thread
 #import physics/dem/contacts
