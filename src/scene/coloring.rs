@@ -144,7 +144,7 @@ fn default_range(column: &str, known: &Known) -> [f64; 2] {
                 Some(Axis::Z) => extent.z,
                 None => extent.max_element(),
             };
-            let voxel = match file.cell() {
+            let voxel = match file.neighbors.cell {
                 Cell::Radius => 2.0 * file.radius(),
                 Cell::Half => file.radius(),
             };

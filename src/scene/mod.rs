@@ -430,7 +430,7 @@ impl From<&model::Neighbors> for Neighbors {
             storage: given.storage,
             slicing_axis: given.slicing_axis,
             regions: given.regions,
-            cell: given.cell.unwrap_or_default(),
+            cell: given.cell,
             slots: given.slots,
             skin: given.skin.unwrap_or(match given.storage {
                 Storage::Pool => 0.0,

@@ -99,22 +99,6 @@ impl SceneFile {
         }
     }
 
-    /// Whether neighbors are listed anew in every step.
-    pub fn lists_every_step(&self) -> bool {
-        self.fluid
-            .as_ref()
-            .is_some_and(|fluid| fluid.solver == FluidSolver::Dfsph)
-    }
-
-    /// Width of a voxel.
-    pub fn cell(&self) -> Cell {
-        let usual = match self.lists_every_step() && self.neighbors.storage != Storage::Pool {
-            true => Cell::Half,
-            false => Cell::Radius,
-        };
-        self.neighbors.cell.unwrap_or(usual)
-    }
-
     /// The key that says how large particles are, and its value, for messages.
     pub fn size(&self) -> String {
         match &self.fluid {

@@ -366,9 +366,11 @@ fn neighbors(file: &SceneFile, frame: &Frame, report: &mut Report) -> Neighbors 
     }
     let mut neighbors = Neighbors::from(given);
     let periodic = frame.sides.iter().flatten().any(|&side| side == Wall::Periodic);
-    let every_step = file.lists_every_step();
+    let every_step = file
+        .fluid
+        .as_ref()
+        .is_some_and(|fluid| fluid.solver == FluidSolver::Dfsph);
     neighbors.lists_every_step = every_step;
-    neighbors.cell = file.cell();
     if every_step {
         neighbors.skin = 0.0;
     }

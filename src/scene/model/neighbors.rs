@@ -18,9 +18,8 @@ pub struct Neighbors {
     pub slicing_axis: SlicingAxis,
     /// Whether clusters of particles with empty space between them get slices of their own (`sliced` only).
     pub regions: bool,
-    /// Width of a voxel; `half` for `dfsph`, which searches in every step, and `radius` for others and with a `pool` when
-    /// left out.
-    pub cell: Option<Cell>,
+    /// Width of a voxel.
+    pub cell: Cell,
     /// How many particles' indices a voxel of a `pool` can hold.
     #[schemars(range(min = 1, max = 64))]
     pub slots: u32,
@@ -48,7 +47,7 @@ impl Default for Neighbors {
             storage: Storage::default(),
             slicing_axis: SlicingAxis::default(),
             regions: false,
-            cell: None,
+            cell: Cell::default(),
             slots: 4,
             skin: None,
             margin: 1.5,
