@@ -1,25 +1,19 @@
 //! Rigid bodies made of grains, against closed forms in f64.
 
 mod common;
-
-use std::path::Path;
+#[path = "common/rotating.rs"]
+mod rotating;
 
 use glam::DVec3;
 use serde_json::{Value, json};
-use sliceflow::error::Error;
 use sliceflow::gpu::device::Limits;
 use sliceflow::output::columns_named;
 use sliceflow::physics::bodies::momenta;
 use sliceflow::plan::{Plan, Wanted};
-use sliceflow::scene::{Scene, load};
+use sliceflow::scene::Scene;
 use sliceflow::simulation::{Frame, Simulation, State, Values};
 
-const G: f64 = 9.81;
-
-fn parse(file: &Value) -> Result<Scene, Error> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/common");
-    load::parse(&file.to_string(), "test.json", &folder, &[])
-}
+use rotating::{G, parse};
 
 fn sound(file: &Value) -> Scene {
     parse(file).unwrap_or_else(|error| panic!("{error}"))

@@ -48,6 +48,19 @@ pub fn create_folder(path: &Path) -> Result<()> {
     }
 }
 
+/// What is in a folder, by name. A name that is no text is none of ours.
+pub fn list(folder: &Path) -> Result<Vec<(String, PathBuf)>> {
+    let failed = |reason| failed(folder, "list", reason);
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        if let Ok(name) = entry.file_name().into_string() {
+            found.push((name, entry.path()));
+        }
+    }
+    Ok(found)
+}
+
 /// Waits until a file, or a folder with all its files, is safe from a power cut.
 pub fn sync(path: &Path) -> Result<()> {
     let sync = || {

@@ -1,7 +1,6 @@
 //! A run's folder, seen by frames: its checkpoints, what must be safe on disk, and back to an earlier frame.
 
 use std::collections::BTreeSet;
-use std::fs;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
@@ -89,14 +88,8 @@ pub fn checkpoints(folder: &Path) -> Result<Vec<(u32, PathBuf)>> {
 
 /// Files and folders that belong to one frame, by frame.
 pub fn numbered(folder: &Path) -> Result<Vec<(u32, PathBuf)>> {
-    let failed = |reason| disk::failed(folder, "list", reason);
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).map_err(failed)? {
-        let path = entry.map_err(failed)?.path();
-        if let Some(frame) = frame_of(&path.file_name().unwrap_or_default().to_string_lossy()) {
-            found.push((frame, path));
-        }
-    }
+    let of_frame = |(name, path): (String, PathBuf)| Some((frame_of(&name)?, path));
+    let mut found: Vec<_> = disk::list(folder)?.into_iter().filter_map(of_frame).collect();
     found.sort();
     Ok(found)
 }
@@ -138,6 +131,8 @@ fn cut_lines(
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]

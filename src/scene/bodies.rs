@@ -9,7 +9,6 @@ use rand_chacha::rand_core::SeedableRng;
 
 use super::filling::Filling;
 use super::fit::{self, Grains, Placed};
-use super::fluid;
 use super::frame::{Frame, LARGEST_COORDINATE, Report};
 use super::grain_materials;
 use super::mesh::Mesh;
@@ -19,6 +18,7 @@ use super::rigid::{self, RigidBody};
 use super::shapes::{self, Region};
 use super::text::number;
 use super::{Collider, Dimensions, Particles, particle_file};
+use super::{fluid, fluid_start};
 
 /// The particles that are there from the start, in the order of the bodies.
 pub struct Filled {
@@ -113,7 +113,7 @@ pub fn fill(
             );
         }
         let flow = |p: &DVec3| match &body.flow {
-            Some(flow) => fluid::flow_at(flow, frame.dimensions, *p + frame.origin).0,
+            Some(flow) => fluid_start::flow_at(flow, frame.dimensions, *p + frame.origin).0,
             None => DVec3::ZERO,
         };
         add(&mut particles, &grains, flow);
@@ -221,7 +221,7 @@ fn fill_fluid(
         file.gravity.0[1],
         file.gravity.0.get(2).copied().unwrap_or(0.0),
     );
-    let pressures = fluid::start_pressures(body, fluid, positions, density, gravity, frame);
+    let pressures = fluid_start::start_pressures(body, fluid, positions, density, gravity, frame);
     particles
         .start_pressure
         .extend(pressures.iter().map(|&p| p as f32));

@@ -18,6 +18,7 @@ mod filling;
 mod fit;
 pub mod fluid;
 mod fluid_keys;
+pub mod fluid_start;
 mod frame;
 mod free_surface;
 pub mod friction;

@@ -533,15 +533,18 @@ mod tests {
         }
     }
 
-    #[test]
-    fn a_cylinder_touches_what_is_beside_it() {
-        let shape = |hollow| ColliderShape::Cylinder {
+    fn cylinder(hollow: bool) -> ColliderShape {
+        ColliderShape::Cylinder {
             from: Vec3::new(1.0, 1.0, 0.0),
             to: Vec3::new(1.0, 1.0, 2.0),
             radius: 0.5,
             hollow,
-        };
-        let (full, hollow) = (shape(false), shape(true));
+        }
+    }
+
+    #[test]
+    fn a_cylinder_touches_what_is_beside_it() {
+        let (full, hollow) = (cylinder(false), cylinder(true));
         let [full, hollow] = [&full, &hollow].map(|shape| Obstacle::new(shape, Dimensions::Three));
         let beside = DVec3::new(1.75, 1.0, 1.0);
         assert!(full.touches(beside, 0.26) && !full.touches(beside, 0.24) && hollow.is_deeper(beside, 0.24));
@@ -554,13 +557,7 @@ mod tests {
     #[test]
     #[cfg(feature = "surface")]
     fn the_shortest_way_out_of_a_cylinder_is_found() {
-        let shape = |hollow| ColliderShape::Cylinder {
-            from: Vec3::new(1.0, 1.0, 0.0),
-            to: Vec3::new(1.0, 1.0, 2.0),
-            radius: 0.5,
-            hollow,
-        };
-        let (full, hollow) = (shape(false), shape(true));
+        let (full, hollow) = (cylinder(false), cylinder(true));
         let [full, hollow] = [&full, &hollow].map(|shape| Obstacle::new(shape, Dimensions::Three));
         let is = |found: Option<DVec3>, x: f64, y: f64, z: f64| {
             assert!(found.unwrap().distance(DVec3::new(x, y, z)) < 1e-6, "{found:?}");

@@ -2,8 +2,8 @@
 #flag moves
 #import physics/fluid/coefficients
 #import physics/dfsph/compression
+#import fields/solved_pressure
 
-var<storage, read> velocity: array<Packed>; // w: pressure, Pa
 var<storage, read> next_velocity: array<Packed>; // after all forces but pressure
 var<storage, read_write> impulse: array<f32>; // Pa·s
 
@@ -35,7 +35,7 @@ fn find_divergence(thread: Thread) {
     let gap = max(-own[i].deviation - own[i].source, 0.0);
     let closing = gap * gap * gap / (gap * gap + SMALL_GAP * SMALL_GAP) / dt;
     let undone = UNDONE * clamp(own[i].deviation, 0.0, SMALL_EXCESS) / dt;
-    let begin = dt * number_of(velocity[i]);
+    let begin = dt * solved_pressure_of(i);
     own[i].closing = closing;
     own[i].source = compression_rate(i, MIRRORED) + undone - closing;
     own[i].most = MOST_PUSH * fluid.density * fluid.spacing / max(2.0 * own[i].most * dt, 1e-30);

@@ -7,6 +7,7 @@
 #import physics/dfsph/loop
 #import physics/dfsph/own
 #import physics/dfsph/pair_list
+#import fields/solved_pressure
 #if boundary_particles
 #import physics/dfsph/walls
 #end
@@ -83,7 +84,7 @@ fn find_density(thread: Thread) {
     let exposed = smoothstep(0.4, 0.8, length(slopes) / dfsph.surface_slope)
         * smoothstep(0.25, 0.75, -deviation / dfsph.surface_density);
     let diagonal = weights + exposed * 2.0 * dfsph.surface_weight;
-    let pressure = number_of(velocity[i]);
+    let pressure = solved_pressure_of(i);
 #if boundary_particles
     walls[i] = Walls(pack_with(pull, approach), pack(lift));
 #end

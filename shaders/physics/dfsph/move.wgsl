@@ -11,6 +11,7 @@
 // Before, how the particle goes, m/s; then its position. w: the pressure's remainder, Pa.
 #import fields/next_position/write
 #import fields/next_velocity/write
+#import fields/velocity/pack
 #import fields/next_correction/write
 #import physics/dfsph/own
 #if boundary_particles
@@ -56,7 +57,7 @@ fn move_fluid(thread: Thread) {
 #end
     watch(i, x, &moved, &v);
     next_position[i] = pack_with(moved, remainder);
-    next_velocity[i] = pack_with(v, pressure);
+    next_velocity[i] = pack_velocity(v, pressure);
     // A correction that was hard to find is of no use to the next step: in deep water it would grow.
     let is_easy = convergence.iteration <= EASY_ITERATIONS;
     next_correction[i] = select(0.0, own[i].impulse / time_step(), is_easy);

@@ -16,15 +16,8 @@ pub const POSITIONS: &str = "position.npy";
 /// Frames that have particle files, and for each the most exact that has positions: a file, or a folder of arrays. Arrays
 /// without positions stand back behind everything else.
 pub fn find(run: &Path) -> Result<BTreeMap<u32, PathBuf>> {
-    let failed = |reason| disk::failed(run, "list", reason);
     let mut found: Vec<(u32, usize, PathBuf)> = Vec::new();
-    for entry in std::fs::read_dir(run).map_err(failed)? {
-        let path = entry.map_err(failed)?.path();
-        let name = path
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
+    for (name, path) in disk::list(run)? {
         for (mut rank, ending) in ENDINGS.into_iter().enumerate() {
             let Some(frame) = numbered(&name, "particles_", ending) else {
                 continue;

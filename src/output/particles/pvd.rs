@@ -8,12 +8,8 @@ use crate::output::folder::{Folder, numbered};
 
 /// Lists what is in the folder.
 pub fn write(folder: &Path, fps: f64) -> Result<()> {
-    let failed = |reason| disk::failed(folder, "list", reason);
-    let mut frames = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(failed)? {
-        let name = entry.map_err(failed)?.file_name();
-        frames.extend(numbered(&name.to_string_lossy(), "particles_", ".vtp"));
-    }
+    let of_frame = |(name, _): &(String, _)| numbered(name, "particles_", ".vtp");
+    let mut frames: Vec<u32> = disk::list(folder)?.iter().filter_map(of_frame).collect();
     frames.sort_unstable();
     let mut text = String::from(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n\

@@ -172,17 +172,8 @@ fn unreadable(path: &Path, reason: String) -> Error {
 
 /// Surfaces in a folder, by frame.
 fn surfaces(folder: &Path) -> Result<Vec<(u32, PathBuf)>> {
-    let failed = |reason| disk::failed(folder, "list", reason);
-    let mut found = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(failed)? {
-        let path = entry.map_err(failed)?.path();
-        let name = path
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
-        found.extend(numbered(&name, "surface_", ".ply").map(|frame| (frame, path)));
-    }
+    let of_frame = |(name, path): (String, PathBuf)| Some((numbered(&name, "surface_", ".ply")?, path));
+    let mut found: Vec<_> = disk::list(folder)?.into_iter().filter_map(of_frame).collect();
     found.sort();
     Ok(found)
 }

@@ -27,7 +27,6 @@ struct Load {
 
 var<workgroup> loads: array<Load, GROUP_SIZE>;
 
-
 // What the particles of a body feel, those of one thread: every GROUP_SIZE-th of them.
 fn load_of(shape: BodyShape, orientation: vec4f, thread: u32) -> Load {
     var load = Load();
