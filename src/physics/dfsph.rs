@@ -238,34 +238,22 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             free,
             "divergence that the compact equation does not see",
         ),
-        pass(
-            "divergence_push",
-            "push_remainder",
-            free,
-            "an iteration against it changes velocities",
-        ),
     ]);
     solver
         .before_search
         .extend(request.sensors.then(|| sensors::force_pass(scene)).flatten());
     solver.before_search.extend([
         pass(
+            "finish_velocity",
+            "finish_velocity",
+            free,
+            "an iteration against it changes velocities; corrections of the step before act on where particles go",
+        ),
+        pass(
             "control",
             "begin_density_loop",
             once,
             "the loop of density begins",
-        ),
-        pass(
-            "density_push",
-            "follow_velocity",
-            density,
-            "particles go as their velocities say",
-        ),
-        pass(
-            "density_push",
-            "push_apart",
-            density,
-            "corrections of the step before act first",
         ),
         repeated(DENSITY, true, pass("control", "watch_density_loop", once, watch)),
         repeated(

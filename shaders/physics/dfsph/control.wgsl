@@ -53,19 +53,13 @@ struct Found {
     iterations: u32, // that the loop has made then
 }
 
-// Pressures begin where they were, and with an iteration in each step water at rest comes nearer to its pressure than one
-// step's error asks for.
-fn least_iterations(which: u32) -> u32 {
-    return u32(which == DIVERGENCE_LOOP);
-}
-
 // Looks at the errors that a first pass found, and ends the loop when they are small. One iteration is made in any case; where
 // it was not needed, no second look follows.
 fn check(which: u32, largest_error: f32, most_iterations: u32) -> Found {
     let error = mean_error();
     let done = convergence.iteration;
     convergence.iteration = done + 1u;
-    let converged = error <= largest_error && done >= least_iterations(which);
+    let converged = error <= largest_error;
     if converged {
         end(first_pass(which));
         if done > 0u {

@@ -21,12 +21,3 @@ fn correct_velocity(thread: Thread) {
         next_velocity[i] = pack_with(unpack(next_velocity[i]) + push, pressure);
     }
 }
-
-@compute @workgroup_size(GROUP_SIZE)
-fn push_remainder(thread: Thread) {
-    let i = item_index(thread);
-    if i < loop_count() && !is_boundary(i) {
-        let v = next_velocity[i];
-        next_velocity[i] = pack_with(unpack(v) + push_on(i, MIRRORED), number_of(v));
-    }
-}

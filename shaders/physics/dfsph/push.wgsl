@@ -11,7 +11,12 @@ fn push_on(i: u32, wall_share: f32) -> Vector {
         let pair = pair_list[slot];
         push += (own_impulse + impulse[pair_particle(pair)]) * pair_gradient(pair);
     }
-    push *= dfsph.steepest * gradient_unit();
+    return finished(i, push, own_impulse, wall_share);
+}
+
+// The same, of a sum over the pairs alone.
+fn finished(i: u32, pairs: Vector, own_impulse: f32, wall_share: f32) -> Vector {
+    var push = pairs * dfsph.steepest * gradient_unit();
 #if boundary_particles
     push += wall_share * own_impulse * unpack(walls[i].pull);
 #end

@@ -4,9 +4,10 @@
 // densities change, and neighbors' pressures still cannot come apart.
 #flag moves
 #import physics/dfsph/compression
+#import fields/correction
 
 var<storage, read_write> next_velocity: array<Packed>; // w: pressure, Pa
-var<storage, read_write> impulse: array<f32>; // what is to act, Pa·s
+var<storage, read_write> impulse: array<f32>; // what is to act, Pa·s; behind that of all particles, corrections of density
 
 // Of the iteration.
 const RELAXATION: f32 = 0.5;
@@ -39,4 +40,7 @@ fn find_remainder(thread: Thread) {
     let next = max(mine.impulse + RELAXATION * rate * mine.exact_response, -time_step() * pressure);
     own[i].impulse = next;
     impulse[i] = next - mine.impulse;
+    // What corrected density in the step before, as far as density is still too high.
+    let needed = clamp(mine.deviation / dfsph.density_error, 0.0, 1.0);
+    impulse[loop_count() + i] = dfsph.warm_correction * needed * time_step() * correction[i];
 }

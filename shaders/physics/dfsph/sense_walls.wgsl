@@ -1,5 +1,6 @@
 // Forces on walls and obstacles in the step that is being made: what pressures and viscosity do to each
-// particle on behalf of one body, reversed. This runs between the loop and the move, since both are in between two samples.
+// particle on behalf of one body, reversed. This runs when the step's pressures are known and before particles move, which is
+// all in between two samples.
 #flag moves
 #import physics/time_step
 #import physics/fluid/pairs

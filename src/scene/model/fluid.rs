@@ -136,7 +136,7 @@ fn iterations() -> u32 {
 }
 
 fn courant_number() -> f64 {
-    0.4
+    0.5
 }
 
 /// One of several fluids.
