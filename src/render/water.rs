@@ -28,8 +28,8 @@ shared_struct! {
         pub retreat: f32,
         pub few: f32,
         pub many: f32,
+        pub deep: f32,
         pub spray: f32,
-        pub reserved: f32,
     }
 }
 
@@ -46,6 +46,8 @@ const RETREAT: f64 = 1.0;
 /// Neighbors that a drop has less of, and that a particle inside the water has more of, as shares of those in the middle.
 const FEW: f64 = 0.2;
 const MANY: f64 = 0.58;
+/// Neighbors, as a share, that particles of the two outermost layers of water have less of. Spheres farther inside are not seen.
+const DEEP: f64 = 0.95;
 /// The length after which light has the water's color where the scene does not say, as a share of the domain's diagonal.
 const ABSORPTION_SHARE: f64 = 0.1;
 /// Light that comes back from deep water, as a share of its color.
@@ -79,8 +81,8 @@ impl Water {
             retreat: (RETREAT * spacing) as f32,
             few: (FEW * full) as f32,
             many: (MANY * full) as f32,
+            deep: (DEEP * full) as f32,
             spray: f32::from(u8::from(looks.spray)),
-            reserved: 0.0,
         }
     }
 }

@@ -12,13 +12,6 @@ var<storage, read_write> next_water_surface: array<f32>;
 // Samples on each side; where the filter is wider, it skips some, which narrower ones after it make up for.
 const TAPS: i32 = 12;
 
-fn surface_at(place: vec2i, size: vec2i) -> f32 {
-    if any(place < vec2i(0)) || any(place >= size) {
-        return -NO_SURFACE; // left out
-    }
-    return water_surface[place.y * size.x + place.x];
-}
-
 // `share` of the filter's whole width.
 fn smooth_surface(item: u32, direction: vec2i, share: f32) {
     let size = vec2i(picture.rectangle.zw * picture.antialias);
@@ -35,14 +28,18 @@ fn smooth_surface(item: u32, direction: vec2i, share: f32) {
     let center = vec2i(i32(item) % size.x, i32(item) / size.x);
     let reach = max(i32(min(2.0 * width, 4096.0)), 1);
     let stride = (reach + TAPS - 1) / TAPS;
+    // Beyond the nearer edge of the picture, samples have no counterpart.
+    let nearer = min(center, size - 1 - center);
+    let last = min(reach, dot(nearer, direction));
+    let step = direction.x + direction.y * size.x;
     let fall = -0.5 / (width * width);
     var low = own - water.range;
     var high = own + water.range;
     var sum = own;
     var weights = 1.0;
-    for (var away = stride; away <= reach; away += stride) {
-        let before = surface_at(center - away * direction, size);
-        let behind = surface_at(center + away * direction, size);
+    for (var away = stride; away <= last; away += stride) {
+        let before = water_surface[i32(item) - away * step];
+        let behind = water_surface[i32(item) + away * step];
         if min(before, behind) < low {
             continue;
         }

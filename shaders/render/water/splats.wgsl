@@ -5,19 +5,16 @@
 
 var scene_depth: texture_depth_2d;
 
-// A particle of the surface, in between smaller where it has few neighbors.
-fn surface_corner(index: u32, i: u32, full_radius: f32) -> Corner {
-    var corner: Corner;
-    corner.clip = NOWHERE;
-    if is_drawn(i) && !is_drop(i) {
-        corner = sphere_corner(index, i, mix(water.drop_radius, full_radius, crowd(i)));
-    }
-    return corner;
-}
-
+// A particle of the surface, in between smaller where it has few neighbors. Those that others surround on all sides are behind
+// them.
 @vertex
 fn place_water_surface(@builtin(vertex_index) index: u32, @builtin(instance_index) i: u32) -> Corner {
-    return surface_corner(index, i, water.radius);
+    var corner: Corner;
+    corner.clip = NOWHERE;
+    if is_drawn(i) && !is_drop(i) && column(i) < water.deep {
+        corner = sphere_corner(index, i, mix(water.drop_radius, water.radius, crowd(i)));
+    }
+    return corner;
 }
 
 // The sphere's front, cut where the domain ends: water stands flat against the walls.
@@ -46,49 +43,63 @@ fn thickness(share: f32, radius: f32) -> vec4f {
     return vec4f(round(32.0 * along) / 32.0, 0.0, 0.0, 0.0);
 }
 
-@vertex
-fn place_water_thickness(@builtin(vertex_index) index: u32, @builtin(instance_index) i: u32) -> Corner {
-    return surface_corner(index, i, water.reach);
-}
-
-@fragment
-fn add_water_thickness(corner: Corner) -> @location(0) vec4f {
-    let ray = hit(corner);
-    let size = vec2f(textureDimensions(scene_depth));
-    let share = corner.clip.xy / vec2f((picture.rectangle.zw + 1u) / 2u);
-    let solid = textureLoad(scene_depth, vec2u(min(share * size, size - 1.0)), 0);
-    let center = picture.view_projection * vec4f(corner.sphere.xyz, 1.0);
-    if ray.enters >= ray.leaves || center.z / center.w > solid {
-        discard;
-    }
-    return thickness((ray.leaves - ray.enters) / (2.0 * corner.sphere.w), corner.sphere.w);
-}
-
-struct Caster {
+// A sphere whose chords are added.
+struct Ball {
     @builtin(position) clip: vec4f,
-    @location(0) offset: vec2f,
+    @location(0) offset: vec2f, // from the center, in radii
     @location(1) @interpolate(flat) radius: f32,
+    @location(2) @interpolate(flat) depth: f32, // of the center
+}
+
+// A chord as a share of the diameter. It is exact from afar; up close, rays cut the sphere at a slant.
+fn chord(ball: Ball) -> f32 {
+    return sqrt(max(1.0 - dot(ball.offset, ball.offset), 0.0));
 }
 
 @vertex
-fn place_water_shadow(@builtin(vertex_index) index: u32, @builtin(instance_index) i: u32) -> Caster {
-    var caster: Caster;
-    caster.clip = NOWHERE;
-    if is_drawn(i) {
-        caster.radius = mix(water.drop_radius, water.reach, crowd(i));
-        caster.offset = strip_corner(index);
-        let half = caster.radius / picture.light.w * 2.0 / f32(SHADOW_TEXELS);
-        let center = picture.light_projection * vec4f(to_3d(unpack(position[i])), 1.0);
-        caster.clip = center + vec4f(caster.offset * half, 0.0, 0.0);
+fn place_water_thickness(@builtin(vertex_index) index: u32, @builtin(instance_index) i: u32) -> Ball {
+    var ball: Ball;
+    ball.clip = NOWHERE;
+    if is_drawn(i) && !is_drop(i) {
+        ball.radius = mix(water.drop_radius, water.reach, crowd(i));
+        ball.offset = strip_corner(index);
+        ball.clip = sphere_corner(index, i, ball.radius).clip;
+        let center = picture.view_projection * vec4f(to_3d(unpack(position[i])), 1.0);
+        ball.depth = center.z / center.w;
     }
-    return caster;
+    return ball;
 }
 
 @fragment
-fn add_water_shadow(caster: Caster) -> @location(0) vec4f {
-    let half2 = 1.0 - dot(caster.offset, caster.offset);
-    if half2 <= 0.0 {
+fn add_water_thickness(ball: Ball) -> @location(0) vec4f {
+    let share = chord(ball);
+    let size = vec2f(textureDimensions(scene_depth));
+    let place = ball.clip.xy / vec2f((picture.rectangle.zw + 1u) / 2u);
+    if share == 0.0 || ball.depth > textureLoad(scene_depth, vec2u(min(place * size, size - 1.0)), 0) {
         discard;
     }
-    return thickness(sqrt(half2), caster.radius);
+    return thickness(share, ball.radius);
+}
+
+@vertex
+fn place_water_shadow(@builtin(vertex_index) index: u32, @builtin(instance_index) i: u32) -> Ball {
+    var ball: Ball;
+    ball.clip = NOWHERE;
+    if is_drawn(i) {
+        ball.radius = mix(water.drop_radius, water.reach, crowd(i));
+        ball.offset = strip_corner(index);
+        let half = ball.radius / picture.light.w * 2.0 / f32(SHADOW_TEXELS);
+        let center = picture.light_projection * vec4f(to_3d(unpack(position[i])), 1.0);
+        ball.clip = center + vec4f(ball.offset * half, 0.0, 0.0);
+    }
+    return ball;
+}
+
+@fragment
+fn add_water_shadow(ball: Ball) -> @location(0) vec4f {
+    let share = chord(ball);
+    if share == 0.0 {
+        discard;
+    }
+    return thickness(share, ball.radius);
 }

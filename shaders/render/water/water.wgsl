@@ -16,8 +16,8 @@ struct Water {
     retreat: f32, // how far behind a surface the filter sees what lies beyond the range
     few: f32, // a particle with fewer neighbors is a drop
     many: f32, // one with more is inside the water
+    deep: f32, // one with so many is behind others, wherever it is seen from
     spray: f32, // how white spray is: 0 or 1
-    reserved: f32,
 }
 
 var<storage, read> water: Water;
