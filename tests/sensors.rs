@@ -283,16 +283,20 @@ fn forces_on_walls_close_the_balance_of_momentum() {
 
 #[test]
 fn forces_of_an_incompressible_fluid_close_the_balance_too() {
-    // Steps that the device would choose longer end at each sample.
-    let scene = scene(
-        SPLASH,
-        &[
+    // Of water, and of honey, whose viscosity is implicit. Steps that the device would choose longer end at each sample.
+    for viscosity in [None, Some("fluid.viscosity=1000")] {
+        let overrides = [
             "fluid.solver=dfsph",
             "bodies[0].velocity=[0.5,0]",
             "time.sensor_interval=5e-4",
-        ],
-    );
-    check_balance(&scene, fluid_mass(&scene), true, 2e-5);
+        ];
+        let scene = scene(SPLASH, &[&overrides[..], viscosity.as_slice()].concat());
+        assert_eq!(
+            scene.fluid().expect("a fluid").implicit_viscosity,
+            viscosity.is_some()
+        );
+        check_balance(&scene, fluid_mass(&scene), true, 2e-5);
+    }
 }
 
 const GRAINS: &str = r#"{

@@ -104,6 +104,46 @@ pub fn lattice(kernel: Kernel, dimensions: usize, h: f64, spacing: f64) -> Latti
     found
 }
 
+/// Factors of the weights of viscous forces along pairs (Monaghan and Gingold 1983): of 2 V |dW/dr| / r, with the volume by which
+/// gradients on a lattice are right, and of the same times (r / spacing)⁴. On a lattice such forces are those of an isotropic
+/// fluid, which resists alike along the lattice and across it, where two positive factors can do that; else they are right for
+/// the mean of all directions.
+pub fn shear(kernel: Kernel, dimensions: usize, h: f64, spacing: f64) -> [f64; 2] {
+    let reach = (kernel.reach() * h / spacing).ceil() as i32;
+    let ticks = |axis: usize| if axis < dimensions { -reach..=reach } else { 0..=0 };
+    // Σ w x⁴/r² and Σ w x²y²/r² of both weights, where Σ w x² is 2.
+    let (mut along, mut across, mut seconds) = ([0.0; 2], [0.0; 2], 0.0);
+    for x in ticks(0) {
+        for y in ticks(1) {
+            for z in ticks(2) {
+                let square = f64::from(x * x + y * y + z * z);
+                if square == 0.0 {
+                    continue;
+                }
+                let r = spacing * square.sqrt();
+                let near = shape_slope(kernel, dimensions, r / h).abs() / r;
+                let [x, y] = [x, y].map(|tick| f64::from(tick * tick));
+                seconds += near * x;
+                for (k, weight) in [near, near * square * square].into_iter().enumerate() {
+                    along[k] += weight * x * x / square;
+                    across[k] += weight * x * y / square;
+                }
+            }
+        }
+    }
+    let scale = 0.5 * seconds;
+    // An isotropic fluid has 6 along and 2 across.
+    let determinant = along[0] * across[1] - along[1] * across[0];
+    let near = scale * (6.0 * across[1] - 2.0 * along[1]) / determinant;
+    let far = scale * (2.0 * along[0] - 6.0 * across[0]) / determinant;
+    if near >= 0.0 && far >= 0.0 {
+        return [near, far];
+    }
+    let count = dimensions as f64;
+    let mean = |k: usize| scale * 2.0 * (count + 2.0) / (along[k] + (count - 1.0) * across[k]);
+    if far < 0.0 { [mean(0), 0.0] } else { [0.0, mean(1)] }
+}
+
 /// df/dq. Of Müller's kernels, that of the spiky one with its own factor, see [`slope_normalization`].
 pub fn shape_slope(kernel: Kernel, dimensions: usize, q: f64) -> f64 {
     if q >= kernel.reach() {
@@ -227,6 +267,44 @@ mod tests {
                 "{}",
                 found.surface_slope * 0.1
             );
+        }
+    }
+
+    /// What a smooth flow of an isotropic fluid feels: ∇²v along a shear wave, whichever way it runs through the lattice.
+    #[test]
+    fn shear_is_alike_along_a_lattice_and_across() {
+        let kernel = Kernel::WendlandC2;
+        for dimensions in [2, 3] {
+            let [near, far] = shear(kernel, dimensions, 1.0, 1.0);
+            assert!(near >= 0.0 && far > 0.0, "{dimensions}D: {near} {far}");
+            let volume = 1.0 / lattice_density(kernel, dimensions, 1.0, 1.0);
+            let volume = volume / lattice(kernel, dimensions, 1.0, 1.0).gradient;
+            // Of a velocity along `way` that grows with the square of the distance along `grows`.
+            let found = |way: [f64; 3], grows: [f64; 3]| {
+                let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
+                let ticks = |axis: usize| if axis < dimensions { -2..=2 } else { 0..=0 };
+                let mut sum = 0.0;
+                for x in ticks(0) {
+                    for y in ticks(1) {
+                        for z in ticks(2) {
+                            let s = [x, y, z].map(f64::from);
+                            let square = dot(s, s);
+                            if square > 0.0 {
+                                let r = square.sqrt();
+                                let weight = -2.0 * volume * slope(kernel, dimensions, 1.0, r) / r;
+                                let weight = weight * (near + far * square * square);
+                                sum += weight * 0.5 * dot(grows, s).powi(2) * dot(way, s).powi(2) / square;
+                            }
+                        }
+                    }
+                }
+                sum
+            };
+            let half = 0.5_f64.sqrt();
+            let straight = found([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+            let across = found([half, half, 0.0], [half, -half, 0.0]);
+            assert!((straight - 1.0).abs() < 1e-9, "{dimensions}D: {straight}");
+            assert!((across - 1.0).abs() < 1e-9, "{dimensions}D: {across}");
         }
     }
 
