@@ -7,6 +7,7 @@ use super::peer::{Material, Peer, RigidBody, Transform};
 use super::{Files, fluid, keys::Ignored};
 use crate::error::{Error, Result};
 use crate::scene::mesh::Mesh;
+use crate::scene::model;
 
 /// Room around everything where no box holds it, in particle radii.
 const ROOM: f64 = 20.0;
@@ -31,8 +32,12 @@ pub fn convert(
         bounds = (bounds.0.min(min), bounds.1.max(max));
         bodies.extend(fluid::model(peer, model, files, ignored)?);
     }
-    if !bodies.is_empty() {
-        notes.push(fluid::note(peer).into());
+    for emitter in &peer.emitters {
+        let reach = DVec3::splat(emitter.radius);
+        bounds = (bounds.0.min(emitter.center - reach), bounds.1.max(emitter.center + reach));
+    }
+    if !bodies.is_empty() || !peer.emitters.is_empty() {
+        notes.push(fluid::note(peer));
     }
     let Obstacles {
         colliders,
@@ -64,6 +69,16 @@ pub fn convert(
     });
     if let Some(duration) = peer.stop_at {
         scene["time"]["duration"] = duration.into();
+    }
+    if let (Some(step), "dfsph") = (peer.time_step.most(), scene["fluid"]["solver"].as_str().unwrap_or_default()) {
+        scene["time"]["step"] = step.into();
+    }
+    let end = peer.stop_at.unwrap_or(model::Time::default().duration);
+    let (emitters, events) = fluid::emitters(peer, end, ignored);
+    for (key, list) in [("emitters", emitters), ("events", events)] {
+        if !list.is_empty() {
+            scene[key] = list.into();
+        }
     }
     if let Some(fps) = peer.fps {
         scene["time"]["fps"] = fps.into();
@@ -97,7 +112,7 @@ fn obstacles(
         bounds: fluid,
     };
     for body in &peer.bodies {
-        let mut ignore = |why: &str| ignored.push(Ignored::new(&body.path, why));
+        let mut ignore = |why: &str| ignored.push(Ignored::physics(&body.path, why));
         let Some(file) = &body.geometry else {
             ignore("it names no geometryFile");
             continue;
@@ -138,7 +153,7 @@ fn obstacles(
             _ => {}
         }
         if body.is_dynamic {
-            ignored.push(Ignored::new(
+            ignored.push(Ignored::physics(
                 format!("{}.isDynamic", body.path),
                 "obstacles rest where they start",
             ));
