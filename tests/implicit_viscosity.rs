@@ -59,26 +59,28 @@ fn waves_of_shear_decay_as_theory_says() {
         (DVec3::new(0.0, 1.0, 0.0), DVec3::X),
         (DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.0, -1.0, 0.0).normalize()),
     ] {
-        for (viscosity, last) in [(50.0, 30), (1000.0, 4)] {
+        for (viscosity, last) in [(50.0, 10), (1000.0, 4)] {
             let mut scene = square(32, viscosity);
             assert!(is_implicit(&scene));
             let places: Vec<DVec3> = scene.particles.position.iter().map(|p| p.as_dvec3()).collect();
             let wave = |p: &DVec3| (TAU * waves.dot(*p)).sin();
+            // So slow that the lattice stays one.
             for (v, p) in scene.particles.velocity.iter_mut().zip(&places) {
-                *v = (0.2 * wave(p) * along).as_vec3();
+                *v = (0.01 * wave(p) * along).as_vec3();
             }
             let (simulation, frames) = frames(&scene, last);
             let particles = simulation.particles().expect("particles");
             let amplitude = |v: &Vec3, p: &Vec3| 2.0 * v.as_dvec3().dot(along) * wave(&p.as_dvec3());
             let each = particles.velocity.iter().zip(&particles.position);
             let count = particles.velocity.len() as f64;
-            let found = each.map(|(v, p)| amplitude(v, p)).sum::<f64>() / count / 0.2;
+            let found = each.map(|(v, p)| amplitude(v, p)).sum::<f64>() / count / 0.01;
             let rate = viscosity / 1000.0 * TAU * TAU * waves.length_squared();
             let steps: u32 = frames.iter().map(|frame| convergence(frame).steps).sum();
             assert_eq!(steps, last);
             let expected = (1.0 + rate / 80.0).powi(-(last as i32));
+            let share = found.ln() / expected.ln();
             assert!(
-                (found / expected).ln().abs() < 0.1 * expected.ln().abs(),
+                (1.0..1.09).contains(&share),
                 "{viscosity} Pa·s, waves {waves}: {found} of {expected} is left"
             );
         }
@@ -104,7 +106,8 @@ fn flow_between_plates_has_the_speed_of_theory() {
     let (simulation, frames) = frames(&scene, 10);
     let particles = simulation.particles().expect("particles");
     let expected = gravity * height * height / 12.0 / (viscosity / 1000.0);
-    let mean = particles.velocity.iter().map(|v| f64::from(v.x)).sum::<f64>() / particles.velocity.len() as f64;
+    let mean =
+        particles.velocity.iter().map(|v| f64::from(v.x)).sum::<f64>() / particles.velocity.len() as f64;
     assert!(
         (mean / expected - 1.0).abs() < 0.04,
         "mean {mean} m/s of {expected} m/s"
@@ -132,7 +135,13 @@ fn a_turning_disc_keeps_its_momentum_and_its_turn() {
         assert!(is_implicit(&scene));
         let origin = scene.origin;
         let drift = Vec3::new(0.2, -0.1, 0.0);
-        for (k, (v, p)) in scene.particles.velocity.iter_mut().zip(&scene.particles.position).enumerate() {
+        for (k, (v, p)) in scene
+            .particles
+            .velocity
+            .iter_mut()
+            .zip(&scene.particles.position)
+            .enumerate()
+        {
             let place = (p.as_dvec3() + origin).as_vec3();
             let noise = 0.1 * Vec3::new((1.7 * k as f32).sin(), (2.3 * k as f32).cos(), 0.0);
             *v = drift + 0.5 * Vec3::new(-place.y, place.x, 0.0) + noise;
@@ -153,9 +162,15 @@ fn a_turning_disc_keeps_its_momentum_and_its_turn() {
         let particles = simulation.particles().expect("particles");
         let (momentum_then, turn_then) = sums(&particles.position, &particles.velocity);
         let lost = (momentum_then - momentum).length();
-        assert!(lost < 1e-5, "{dimensions}D: momentum is off by {lost} m/s per particle");
+        assert!(
+            lost < 1e-5,
+            "{dimensions}D: momentum is off by {lost} m/s per particle"
+        );
         let turned = (turn_then - turn).length() / turn.length();
-        assert!(turned < 0.01, "{dimensions}D: angular momentum is off by {turned} of itself");
+        assert!(
+            turned < 0.01,
+            "{dimensions}D: angular momentum is off by {turned} of itself"
+        );
         // The noise is gone, and what turns as a whole is not.
         let energy = |frame: &Frame| frame.statistics.expect("statistics").kinetic_energy;
         assert!(energy(&frames[2]) < 0.95 * energy(&frames[0]));
@@ -207,7 +222,10 @@ fn only_viscosity_that_would_shorten_steps_is_implicit() {
     // What events set counts from the start.
     let thickens = common::fluid(
         2,
-        &["fluid.solver=dfsph", "events=[{\"at\":0.05,\"set\":{\"viscosity\":1000}}]"],
+        &[
+            "fluid.solver=dfsph",
+            "events=[{\"at\":0.05,\"set\":{\"viscosity\":1000}}]",
+        ],
     );
     assert!(is_implicit(&thickens));
 
@@ -218,6 +236,11 @@ fn only_viscosity_that_would_shorten_steps_is_implicit() {
     let (without, with) = (plan(&water), plan(&honey));
     let tells = |plan: &Plan| plan.notes.iter().any(|note| note.contains("implicitly"));
     assert!(!tells(&without) && tells(&with), "{:?}", with.notes);
-    let sweeps = |plan: &Plan| plan.passes.iter().filter(|row| row.pass.entry.starts_with("damp")).count();
+    let sweeps = |plan: &Plan| {
+        plan.passes
+            .iter()
+            .filter(|row| row.pass.entry.starts_with("damp"))
+            .count()
+    };
     assert_eq!((sweeps(&without), sweeps(&with)), (0, 2));
 }

@@ -64,11 +64,17 @@ pub fn main(args: &Args) -> Result<()> {
         ..Allowance::default()
     };
     let imported = import_within(&args.scene, folder, &args.set, &allowance)?;
-    let (lost, unused): (Vec<_>, Vec<_>) = imported.ignored.iter().partition(|ignored| ignored.changes_physics);
+    let (lost, unused): (Vec<_>, Vec<_>) = imported
+        .ignored
+        .iter()
+        .partition(|ignored| ignored.changes_physics);
     if args.strict && !lost.is_empty() {
         let list: String = lost.iter().map(|lost| format!("\n  {lost}")).collect();
         return Err(Error::usage(
-            format!("{}: has no counterpart, and the physics change without it:{list}", args.scene.display()),
+            format!(
+                "{}: has no counterpart, and the physics change without it:{list}",
+                args.scene.display()
+            ),
             "take it out of the scene, or import without --strict",
         ));
     }
@@ -97,8 +103,12 @@ pub fn main(args: &Args) -> Result<()> {
     }
     let text = format!("{:#}\n", imported.json);
     args.quiet.tell(&format!(
-        "imported {} particles and {} obstacles{}",
+        "imported {} particles{} and {} obstacles{}",
         count(imported.scene.particles.len() as u64),
+        match imported.scene.file.emitters.len() {
+            0 => String::new(),
+            emitters => format!(", {emitters} emitters"),
+        },
         imported.scene.colliders.len(),
         args.out
             .as_ref()

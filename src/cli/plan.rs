@@ -314,8 +314,14 @@ fn solver(fluid: &Fluid) -> String {
             };
             format!("dfsph, the default: incompressible, so steps follow motion and not sound{viscosity}")
         }
-        FluidSolver::Wcsph => format!("wcsph, which the scene asks for: weakly compressible, and {}", sound()),
-        FluidSolver::Sph => format!("sph, which the scene asks for: compressible (Müller 2003), and {}", sound()),
+        FluidSolver::Wcsph => format!(
+            "wcsph, which the scene asks for: weakly compressible, and {}",
+            sound()
+        ),
+        FluidSolver::Sph => format!(
+            "sph, which the scene asks for: compressible (Müller 2003), and {}",
+            sound()
+        ),
     }
 }
 

@@ -440,12 +440,7 @@ fn why_implicit(scene: &Scene, fluid: &scene::fluid::Fluid) -> String {
 fn settings(scene: &Scene, fluid: &scene::fluid::Fluid) -> Dfsph {
     let given = coefficients(scene, fluid);
     let smoothing = 1.0 / f64::from(given.inverse_smoothing);
-    let [shear, far_shear] = kernels::shear(
-        fluid.kernel,
-        scene.dimensions.count(),
-        smoothing,
-        fluid.spacing,
-    );
+    let [shear, far_shear] = kernels::shear(fluid.kernel, scene.dimensions.count(), smoothing, fluid.spacing);
     let slope = kernels::steepest(fluid.kernel, scene.dimensions.count());
     let lattice = kernels::lattice(fluid.kernel, scene.dimensions.count(), smoothing, fluid.spacing);
     let slope_volume = given.volume / lattice.gradient as f32;

@@ -320,7 +320,10 @@ mod tests {
             let half = 0.5_f64.sqrt();
             let straight = found([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
             let across = found([half, half, 0.0], [half, -half, 0.0]);
-            assert!((straight - across).abs() < 1e-9, "{dimensions}D: {straight} {across}");
+            assert!(
+                (straight - across).abs() < 1e-9,
+                "{dimensions}D: {straight} {across}"
+            );
             // A lattice whose rows have not slid resists a little more than others.
             assert!((1.0..1.12).contains(&straight), "{dimensions}D: {straight}");
         }

@@ -302,7 +302,7 @@ impl Fluid {
     /// The longest step of `dfsph` as far as motion and weight go, seconds.
     pub fn moving_step(&self, gravity: f64) -> f64 {
         let falling = (INCOMPRESSIBLE_FALL * self.spacing / gravity).sqrt();
-        falling.min(self.courant_number * self.spacing / self.max_speed)
+        falling.min(self.longest_step())
     }
 
     /// The longest explicit step with this kinematic viscosity, m²/s, seconds.

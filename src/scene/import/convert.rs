@@ -34,7 +34,10 @@ pub fn convert(
     }
     for emitter in &peer.emitters {
         let reach = DVec3::splat(emitter.radius);
-        bounds = (bounds.0.min(emitter.center - reach), bounds.1.max(emitter.center + reach));
+        bounds = (
+            bounds.0.min(emitter.center - reach),
+            bounds.1.max(emitter.center + reach),
+        );
     }
     if !bodies.is_empty() || !peer.emitters.is_empty() {
         notes.push(fluid::note(peer));
@@ -70,7 +73,10 @@ pub fn convert(
     if let Some(duration) = peer.stop_at {
         scene["time"]["duration"] = duration.into();
     }
-    if let (Some(step), "dfsph") = (peer.time_step.most(), scene["fluid"]["solver"].as_str().unwrap_or_default()) {
+    if let (Some(step), "dfsph") = (
+        peer.time_step.most(),
+        scene["fluid"]["solver"].as_str().unwrap_or_default(),
+    ) {
         scene["time"]["step"] = step.into();
     }
     let end = peer.stop_at.unwrap_or(model::Time::default().duration);
@@ -127,8 +133,9 @@ fn obstacles(
         };
         let (min, max) = placed.bounds();
         let (is_box, is_closed) = (is_box(&placed), placed.open_edges() == 0);
-        let holds_fluid = fluid.0.cmpge(min).all() && fluid.1.cmple(max).all();
-        let is_container = is_box && (body.is_inverted || (body.is_wall && holds_fluid));
+        let mut axes = 0..peer.dimensions;
+        let holds_fluid = axes.all(|axis| fluid.0[axis] >= min[axis] && fluid.1[axis] <= max[axis]);
+        let is_container = is_box && (body.is_inverted || holds_fluid);
         match (is_container, &found.container) {
             (true, None) => {
                 found.container = Some((min, max));

@@ -23,7 +23,10 @@ pub fn note(peer: &Peer) -> String {
              has one fluid only"
         }
     };
-    let viscosity = match used(peer).iter().all(|id| viscosity(peer, id) == Viscosity::Unknown) {
+    let viscosity = match used(peer)
+        .iter()
+        .all(|id| viscosity(peer, id) == Viscosity::Unknown)
+    {
         true => "; its viscosity is that of water, since none is given",
         false => "",
     };
@@ -168,7 +171,10 @@ pub fn substance(peer: &Peer, ignored: &mut Vec<Ignored>) -> Value {
     for material in &peer.materials {
         if material.viscosity == Viscosity::Without && used.contains(&material.id.as_str()) {
             let why = "its coefficient has no unit, so the fluid has the viscosity of water; set fluid.viscosity, Pa·s";
-            ignored.push(Ignored::physics(format!("{}.viscosityMethod", material.path), why));
+            ignored.push(Ignored::physics(
+                format!("{}.viscosityMethod", material.path),
+                why,
+            ));
         }
     }
     let mut fluid = json!({
@@ -178,7 +184,12 @@ pub fn substance(peer: &Peer, ignored: &mut Vec<Ignored>) -> Value {
         "viscosity": used.first().map_or(VISCOSITY, |id| of_material(id)),
     });
     // There, walls resist by a coefficient of their own.
-    let slips = |id: &&str| matches!(viscosity(peer, id), Viscosity::Kinematic { boundary: 0.0, .. } | Viscosity::None);
+    let slips = |id: &&str| {
+        matches!(
+            viscosity(peer, id),
+            Viscosity::Kinematic { boundary: 0.0, .. } | Viscosity::None
+        )
+    };
     if !used.is_empty() && used.iter().all(slips) {
         fluid["slip"] = "free_slip".into();
     }
@@ -204,7 +215,8 @@ pub fn substance(peer: &Peer, ignored: &mut Vec<Ignored>) -> Value {
         fluid["artificial_viscosity"] = ARTIFICIAL_VISCOSITY.into();
     }
     if used.len() > 1 {
-        let material = |id: &&str| json!({ "name": id, "density": density(id), "viscosity": of_material(id) });
+        let material =
+            |id: &&str| json!({ "name": id, "density": density(id), "viscosity": of_material(id) });
         fluid["materials"] = used.iter().map(material).collect();
     }
     fluid

@@ -116,7 +116,11 @@ impl Keys {
 
     /// The same for every key that ends so.
     pub fn lacking_all(&mut self, ending: &str, why: &str) {
-        let keys = self.value.as_object().into_iter().flat_map(|object| object.keys());
+        let keys = self
+            .value
+            .as_object()
+            .into_iter()
+            .flat_map(|object| object.keys());
         let keys: Vec<String> = keys.filter(|key| key.ends_with(ending)).cloned().collect();
         for key in keys {
             self.lacking(&key, why);

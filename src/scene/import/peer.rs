@@ -54,7 +54,11 @@ impl TimeStep {
 
     /// The longest step, seconds.
     pub fn most(&self) -> Option<f64> {
-        let given = if self.is_fixed() { &self.size } else { &self.longest };
+        let given = if self.is_fixed() {
+            &self.size
+        } else {
+            &self.longest
+        };
         given.as_ref().map(|(_, step)| *step).filter(|&step| step > 0.0)
     }
 }
@@ -89,7 +93,10 @@ pub enum Viscosity {
     Unknown,
     None,
     /// m²/s.
-    Kinematic { fluid: f64, boundary: f64 },
+    Kinematic {
+        fluid: f64,
+        boundary: f64,
+    },
     /// A number that has no unit.
     Without,
 }
@@ -166,7 +173,10 @@ pub struct Emitter {
 
 /// What Sliceflow has not, each with what it does instead.
 const LACKING: &[(&str, &str)] = &[
-    ("AnimationFields", "nothing prescribes velocities in parts of the domain"),
+    (
+        "AnimationFields",
+        "nothing prescribes velocities in parts of the domain",
+    ),
     ("scriptFile", "scripts do not run"),
 ];
 const LACKING_OF_MATERIALS: &[(&str, &str)] = &[
@@ -174,7 +184,10 @@ const LACKING_OF_MATERIALS: &[(&str, &str)] = &[
     ("surfaceTensionMethod", "this fluid has no surface tension"),
     ("dragMethod", "air does not drag the fluid"),
     ("vorticityMethod", "no vorticity is added to the fluid's own"),
-    ("emitterReuseParticles", "particles that leave stay gone, and emitters make new ones"),
+    (
+        "emitterReuseParticles",
+        "particles that leave stay gone, and emitters make new ones",
+    ),
 ];
 
 pub fn read(keys: &mut Keys) -> Result<Peer, Problem> {
@@ -278,8 +291,15 @@ fn viscosity(keys: &mut Keys) -> Result<Viscosity, Problem> {
     let Some(method) = keys.number("viscosityMethod")? else {
         return Ok(Viscosity::Unknown);
     };
-    let Some((name, is_kinematic)) = VISCOSITY_METHODS.get((method - 1.0) as usize).filter(|_| method >= 1.0) else {
-        return Ok(if method == 0.0 { Viscosity::None } else { Viscosity::Without });
+    let Some((name, is_kinematic)) = VISCOSITY_METHODS
+        .get((method - 1.0) as usize)
+        .filter(|_| method >= 1.0)
+    else {
+        return Ok(if method == 0.0 {
+            Viscosity::None
+        } else {
+            Viscosity::Without
+        });
     };
     if !is_kinematic {
         return Ok(Viscosity::Without);
@@ -293,7 +313,10 @@ fn viscosity(keys: &mut Keys) -> Result<Viscosity, Problem> {
 
 fn emitter(keys: &mut Keys, radius: f64, dimensions: usize) -> Result<Emitter, Problem> {
     let is_round = keys.number("type")? == Some(1.0);
-    let [width, height] = [keys.number("width")?.unwrap_or(5.0), keys.number("height")?.unwrap_or(5.0)];
+    let [width, height] = [
+        keys.number("width")?.unwrap_or(5.0),
+        keys.number("height")?.unwrap_or(5.0),
+    ];
     let transform = transform(keys)?;
     let direction = match dimensions {
         // There, all turns of a flat scene are about z.

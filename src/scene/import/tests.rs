@@ -234,6 +234,9 @@ fn several_fluids_keep_their_materials() {
 fn flat_scenes_stay_flat() {
     let mut scene = dam();
     scene["Configuration"]["sim2D"] = true.into();
+    // What lies across the plane does not matter.
+    scene["FluidBlocks"][0]["start"][2] = json!(-5.0);
+    scene["RigidBodies"][0]["mapInvert"] = false.into();
     let (folder, path) = folder(&scene);
     let imported = import(&path, Some(folder.path())).unwrap();
     assert_eq!(imported.scene.particles.len(), 19 * 19);
@@ -299,11 +302,14 @@ fn emitters_flow_where_and_when_they_did() {
     assert_eq!((round.on, wide.on), (false, true));
     // The run ends before the second one does.
     let switches = imported.json["events"].as_array().unwrap();
-    let times: Vec<_> = switches.iter().map(|event| event["at"].as_f64().unwrap()).collect();
+    let times: Vec<_> = switches
+        .iter()
+        .map(|event| event["at"].as_f64().unwrap())
+        .collect();
     assert_eq!(times, [0.5, 1.0]);
     let warned = imported.ignored.iter().filter(|ignored| ignored.changes_physics);
     let warned: Vec<_> = warned.map(|ignored| ignored.path.as_str()).collect();
-    assert_eq!(warned, ["Emitters[1].type", "RigidBodies[1].isDynamic"]);
+    assert_eq!(warned, ["RigidBodies[1].isDynamic", "Emitters[1].type"]);
 }
 
 /// Coefficients of three of the peer's methods are kinematic viscosities; those of the others have no unit.
@@ -320,21 +326,35 @@ fn viscosity_is_that_of_the_peer() {
     let fluid = honey.scene.fluid().unwrap();
     assert_eq!(fluid.materials[0].viscosity, 700.0);
     assert!(fluid.implicit_viscosity && fluid.slip == Slip::NoSlip);
-    assert!(!honey.ignored.iter().any(|ignored| ignored.path.starts_with("Materials") && ignored.changes_physics));
+    assert!(
+        !honey
+            .ignored
+            .iter()
+            .any(|ignored| ignored.path.starts_with("Materials") && ignored.changes_physics)
+    );
     let water = scene(json!([{ "id": "Fluid", "density0": 1000, "viscosityMethod": 1,
         "Standard viscosity": { "viscosity": 0.01, "viscosityBoundary": 0 } }]));
     let fluid = water.scene.fluid().unwrap();
     assert_eq!((fluid.materials[0].viscosity, fluid.slip), (10.0, Slip::FreeSlip));
-    let peer = scene(json!([{ "id": "Fluid", "viscosityMethod": 4, "elasticityMethod": 0, "dragMethod": 2 }]));
+    let peer =
+        scene(json!([{ "id": "Fluid", "viscosityMethod": 4, "elasticityMethod": 0, "dragMethod": 2 }]));
     assert_eq!(peer.scene.fluid().unwrap().materials[0].viscosity, 1e-3);
-    let lost: Vec<_> = peer.ignored.iter().filter(|ignored| ignored.changes_physics).collect();
+    let lost: Vec<_> = peer
+        .ignored
+        .iter()
+        .filter(|ignored| ignored.changes_physics)
+        .collect();
     let paths: Vec<_> = lost.iter().map(|lost| lost.path.as_str()).collect();
     for path in ["Materials[0].viscosityMethod", "Materials[0].dragMethod"] {
         assert!(paths.contains(&path), "{paths:?}");
     }
     assert!(!paths.contains(&"Materials[0].elasticityMethod"));
     // They stand before all else.
-    assert!(peer.ignored[..lost.len()].iter().all(|ignored| ignored.changes_physics));
+    assert!(
+        peer.ignored[..lost.len()]
+            .iter()
+            .all(|ignored| ignored.changes_physics)
+    );
 }
 
 #[test]
