@@ -5,7 +5,8 @@
 //! approximate projection (Cummins and Rudman 1999), whose Laplacian joins neighbors only, so that pressures of neighbors cannot
 //! come apart (`shaders/physics/dfsph/relax.wgsl`). What it does not see is a remainder, which one iteration a step keeps up
 //! (`shaders/physics/dfsph/remainder.wgsl`). A second loop corrects where particles go, so that densities do not exceed the
-//! rest density; what it corrects does not become motion. Loops are recorded as often as they may run; the device lets the rest
+//! rest density; what it corrects does not become motion. Viscosity that would make steps much shorter is implicit: a loop before
+//! pressure finds what it does (`shaders/physics/dfsph/damp.wgsl`). Loops are recorded as often as they may run; the device lets the rest
 //! run on nothing once they have converged (`shaders/physics/dfsph/control.wgsl`). Pressures are never negative, so the fluid
 //! has free surfaces.
 
