@@ -236,6 +236,29 @@ fn a_plan_names_buffers_and_passes_and_says_why() {
 }
 
 #[test]
+fn a_plan_says_which_solver_a_fluid_gets_and_why() {
+    let solver = |args: &[&str]| {
+        let text = output(&[&["plan", "harada_dam"], args].concat());
+        let line = text.lines().find(|line| line.starts_with("solver "));
+        line.map(str::to_owned).unwrap_or_else(|| panic!("{text}"))
+    };
+    let default = solver(&[]);
+    assert!(
+        default.contains("dfsph, the default") && default.contains("incompressible"),
+        "{default}"
+    );
+    assert!(!default.contains("viscosity"), "{default}");
+    let honey = solver(&["--set", "fluid.viscosity=100"]);
+    assert!(honey.contains("viscosity is implicit"), "{honey}");
+    let asked = solver(&["--set", "fluid.solver=wcsph"]);
+    assert!(
+        asked.contains("wcsph, which the scene asks for") && asked.contains("sound"),
+        "{asked}"
+    );
+    assert!(!output(&["plan", "column_2d"]).contains("\nsolver "));
+}
+
+#[test]
 fn fewer_outputs_need_less_disk() {
     let disk = |more: &[&str]| {
         json(&[&["plan", "column_2d", "--json"], more].concat())["disk_bytes_estimate"]

@@ -72,7 +72,7 @@ const ENTRIES: &[Entry] = &[
                 memory: 30_000_000,
                 folders: Some(Vec::new()),
             };
-            let _ = import::import_within(&folder.join(name), None, &allowance);
+            let _ = import::import_within(&folder.join(name), None, &[], &allowance);
         },
     },
     Entry {

@@ -299,8 +299,29 @@ fn a_peers_scene_is_imported_and_runs() {
         assert!(text.contains(wanted), "{wanted}: {text}");
     }
     assert!(told(&mut import(&to_file), 2).contains("--force"));
+    let set = ["--set", "fluid.viscosity=5"];
+    let changed = import(&set).assert().success().get_output().stdout.clone();
+    assert!(String::from_utf8_lossy(&changed).contains("\"viscosity\": 5"));
     let printed = import(&[]).assert().success().get_output().stdout.clone();
     assert_eq!(fs::read(&scene).unwrap(), printed);
+
+    // What changes the physics comes first, and a strict import refuses it.
+    let elastic = fs::read_to_string(&peer).unwrap().replacen(
+        '{',
+        r#"{ "Materials": [ { "id": "Fluid", "elasticityMethod": 3, "colorMapType": 7 } ],"#,
+        1,
+    );
+    fs::write(&peer, elastic).unwrap();
+    let text = told(&mut import(&[]), 0);
+    assert!(
+        text.starts_with("warning: the physics change: Materials[0].elasticityMethod: it is elastic there"),
+        "{text}"
+    );
+    let refused = told(&mut import(&["--strict"]), 2);
+    assert!(
+        refused.contains("elasticityMethod") && !refused.contains("colorMapType"),
+        "{refused}"
+    );
 
     let mut run = sliceflow(&[
         "run",

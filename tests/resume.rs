@@ -135,6 +135,8 @@ fn adaptive_steps_go_on() {
         assert!(state.buffer("step_control").is_some());
     }
     halves(&common::fluid(2, &["fluid.solver=dfsph", "time.fps=60"]), "dfsph");
+    let honey = ["fluid.solver=dfsph", "fluid.viscosity=1000", "time.fps=60"];
+    halves(&common::fluid(2, &honey), "implicit viscosity");
 }
 
 /// Grains fly apart, so that the grid grows before and behind the middle.

@@ -101,6 +101,8 @@ fn fluid_plans() -> Vec<Plan> {
                 "fluid.viscosity=0",
                 "fluid.viscosity=0.1",
                 "fluid.artificial_viscosity=0.1",
+                // So much that it is implicit.
+                "fluid.viscosity=1e4",
             ] {
                 let walls = format!("domain.walls={walls}");
                 let scene = common::fluid(dimensions, &["fluid.solver=dfsph", drag, &walls]);

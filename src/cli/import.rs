@@ -13,9 +13,10 @@ use crate::scene::import::import_within;
 
 /// Makes a scene from a scene file of SPlisHSPlasH
 ///
-/// Reads FluidBlocks, FluidModels, RigidBodies (as obstacles that rest, or as the domain's box), Materials,
-/// gravity, times and camera, and lists every key that has no effect. Fluid becomes a
-/// fluid of the same spacing and density: of `dfsph` where its solver keeps densities constant, else of `wcsph`.
+/// Reads FluidBlocks, FluidModels, Emitters, RigidBodies (as obstacles that rest, or as the domain's box), Materials,
+/// gravity, times, steps and camera. Fluid becomes a fluid of the same spacing, density and viscosity: of `wcsph` where its
+/// solver is WCSPH, else of `dfsph`. What changes the physics and has no counterpart is a warning, first of all; every other
+/// key that has no effect is listed.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -27,6 +28,12 @@ pub struct Args {
     /// Replaces that file where it is there
     #[arg(long, requires = "out")]
     force: bool,
+    /// Changes a key of the new scene: fluid.viscosity=10 (repeatable)
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Refuses scenes with anything that changes the physics and has no counterpart
+    #[arg(long)]
+    strict: bool,
     /// Refuses scenes that need more memory for particles and meshes
     #[arg(long, value_name = "SIZE", default_value = "1GB", value_parser = bytes)]
     max_memory: u64,
@@ -38,6 +45,7 @@ const EXAMPLES: &str = "\
 Examples:
   sliceflow import DamBreakModel.json --out dam.json
   sliceflow run dam.json
+  sliceflow import ViscousBunny.json --out bunny.json --set time.duration=2 --strict
   sliceflow import data/Scenes/DamBreakModel.json > dam.json";
 
 pub fn main(args: &Args) -> Result<()> {
@@ -55,7 +63,24 @@ pub fn main(args: &Args) -> Result<()> {
         memory: args.max_memory,
         ..Allowance::default()
     };
-    let imported = import_within(&args.scene, folder, &allowance)?;
+    let imported = import_within(&args.scene, folder, &args.set, &allowance)?;
+    let (lost, unused): (Vec<_>, Vec<_>) = imported
+        .ignored
+        .iter()
+        .partition(|ignored| ignored.changes_physics);
+    if args.strict && !lost.is_empty() {
+        let list: String = lost.iter().map(|lost| format!("\n  {lost}")).collect();
+        return Err(Error::usage(
+            format!(
+                "{}: has no counterpart, and the physics change without it:{list}",
+                args.scene.display()
+            ),
+            "take it out of the scene, or import without --strict",
+        ));
+    }
+    for lost in lost {
+        args.quiet.tell(&format!("warning: the physics change: {lost}"));
+    }
     let own = Allowance {
         folders: Some(Vec::new()),
         ..allowance
@@ -73,13 +98,17 @@ pub fn main(args: &Args) -> Result<()> {
     for note in &imported.notes {
         args.quiet.tell(&format!("note: {note}"));
     }
-    for ignored in &imported.ignored {
+    for ignored in unused {
         args.quiet.tell(&format!("ignored: {ignored}"));
     }
     let text = format!("{:#}\n", imported.json);
     args.quiet.tell(&format!(
-        "imported {} particles and {} obstacles{}",
+        "imported {} particles{} and {} obstacles{}",
         count(imported.scene.particles.len() as u64),
+        match imported.scene.file.emitters.len() {
+            0 => String::new(),
+            emitters => format!(", {emitters} emitters"),
+        },
         imported.scene.colliders.len(),
         args.out
             .as_ref()

@@ -18,6 +18,9 @@ use crate::output::text::{bytes, count};
 use crate::output::{Checkpoints, Outputs, checkpoint_estimate, disk_bytes};
 use crate::plan::{Phase, Plan};
 use crate::scene::Scene;
+use crate::scene::fluid::Fluid;
+use crate::scene::model::FluidSolver;
+use crate::scene::text::number;
 
 /// Says what a run would do: buffers, passes, time step, memory, disk
 ///
@@ -132,6 +135,7 @@ impl<'a> Report<'a> {
             "particles_at_start": scene.particles.len(),
             "particles": scene.first_boundary(),
             "boundary_particles": scene.boundary.len(),
+            "solver": scene.fluid().map(solver),
             "grid": grid::name(&scene.neighbors),
             "frames": scene.time.frames,
             "fps": scene.time.fps,
@@ -174,6 +178,9 @@ impl fmt::Display for Report<'_> {
             walls => writeln!(f, ", and {} boundary particles", count(walls))?,
         }
         let adaptive = time.adaptive.is_some();
+        if let Some(fluid) = scene.fluid() {
+            writeln!(f, "solver     {}", solver(fluid))?;
+        }
         writeln!(f, "grid       {}", grid::name(&scene.neighbors))?;
         write!(
             f,
@@ -288,6 +295,33 @@ impl fmt::Display for Report<'_> {
             write!(f, "\nnote: {note}")?;
         }
         writeln!(f)
+    }
+}
+
+/// Which solver a fluid gets, and why.
+fn solver(fluid: &Fluid) -> String {
+    let sound = || {
+        format!(
+            "steps follow sound of {} m/s; `dfsph`, the default, takes longer ones",
+            number(fluid.sound_speed)
+        )
+    };
+    match fluid.solver {
+        FluidSolver::Dfsph => {
+            let viscosity = match fluid.implicit_viscosity {
+                true => ", and viscosity is implicit, so neither does it shorten steps",
+                false => "",
+            };
+            format!("dfsph, the default: incompressible, so steps follow motion and not sound{viscosity}")
+        }
+        FluidSolver::Wcsph => format!(
+            "wcsph, which the scene asks for: weakly compressible, and {}",
+            sound()
+        ),
+        FluidSolver::Sph => format!(
+            "sph, which the scene asks for: compressible (Müller 2003), and {}",
+            sound()
+        ),
     }
 }
 

@@ -131,11 +131,25 @@ struct PressureSolver {
     divergence_error_max: f64,
     /// Steps that stopped at `fluid.max_iterations` before the divergence was good enough.
     divergence_unconverged_steps: u32,
+    /// Where viscosity is found implicitly: iterations of its loop in a step, on average.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    viscosity_iterations_mean: Option<f64>,
+    /// Its iterations in the step that took most.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    viscosity_iterations_max: Option<u32>,
+    /// What the worst step stopped at: share of what viscosity had to change.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    viscosity_error_max: Option<f64>,
+    /// Steps that stopped at `fluid.max_iterations` before that share was small enough.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    viscosity_unconverged_steps: Option<u32>,
 }
 
 impl From<&Convergence> for PressureSolver {
     fn from(from: &Convergence) -> Self {
         let mean = |iterations: u32| f64::from(iterations) / f64::from(from.steps.max(1));
+        // Each step with such a loop has an iteration.
+        let is_implicit = from.viscosity_iterations > 0;
         Self {
             density_iterations_mean: mean(from.density_iterations),
             density_iterations_max: from.most_density_iterations,
@@ -145,6 +159,10 @@ impl From<&Convergence> for PressureSolver {
             divergence_iterations_max: from.most_divergence_iterations,
             divergence_error_max: from.divergence_error.into(),
             divergence_unconverged_steps: from.divergence_unconverged,
+            viscosity_iterations_mean: is_implicit.then(|| mean(from.viscosity_iterations)),
+            viscosity_iterations_max: is_implicit.then_some(from.most_viscosity_iterations),
+            viscosity_error_max: is_implicit.then_some(from.viscosity_error.into()),
+            viscosity_unconverged_steps: is_implicit.then_some(from.viscosity_unconverged),
         }
     }
 }

@@ -5,7 +5,8 @@
 //! approximate projection (Cummins and Rudman 1999), whose Laplacian joins neighbors only, so that pressures of neighbors cannot
 //! come apart (`shaders/physics/dfsph/relax.wgsl`). What it does not see is a remainder, which one iteration a step keeps up
 //! (`shaders/physics/dfsph/remainder.wgsl`). A second loop corrects where particles go, so that densities do not exceed the
-//! rest density; what it corrects does not become motion. Loops are recorded as often as they may run; the device lets the rest
+//! rest density; what it corrects does not become motion. Viscosity that would make steps much shorter is implicit: a loop before
+//! pressure finds what it does (`shaders/physics/dfsph/damp.wgsl`). Loops are recorded as often as they may run; the device lets the rest
 //! run on nothing once they have converged (`shaders/physics/dfsph/control.wgsl`). Pressures are never negative, so the fluid
 //! has free surfaces.
 
@@ -15,12 +16,13 @@ use super::fluid::{
     self, FLAG, body_velocity, boundary, coefficients, given, kernel_file, measure, measures, rim_of,
 };
 use super::kernels;
-use super::layout::{Convergence, Dfsph, Fluid, PACKED_BYTES};
+use super::layout::{Convergence, Damping, Dfsph, Fluid, PACKED_BYTES};
 use super::model::{Model, Request, Solver, Written};
 use super::sensors;
 use crate::gpu::{BufferPlan, Items, PassPlan, Repeat, Variant};
 use crate::neighbors::storage;
 use crate::scene::model::{FluidSolver, Slip, Wall};
+use crate::scene::text::number;
 use crate::scene::{self, Matter, Scene};
 
 /// Sums that the errors of all particles are added to.
@@ -28,6 +30,7 @@ const ERROR_SUMS: u32 = 256;
 /// Numbers of the loops.
 pub const DENSITY: u32 = 0;
 pub const DIVERGENCE: u32 = 1;
+pub const VISCOSITY: u32 = 2;
 /// Relaxation of Jacobi's sweeps; with the momentum that the loop of pressure has, they converge up to 0.5.
 const RELAXATION: f32 = 0.45;
 /// The same in the loop of density, and the share of an iteration's step that the next one goes on with: together they converge
@@ -73,19 +76,25 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     // At some time during the run.
     let ever = |has: fn(&scene::fluid::Fluid) -> bool| scene.matters().any(|matter| has(given(matter)));
     let viscous = ever(scene::fluid::Fluid::is_viscous);
+    let implicit = fluid.implicit_viscosity;
+    let explicit = viscous && !implicit;
     let damped = ever(|fluid| fluid.artificial_viscosity > 0.0);
+    let wall_shear = implicit && walls && fluid.slip == Slip::NoSlip;
     variant
         .flag(FLAG, true)
         .role("kernel", kernel_file(fluid.kernel))
         .constant("GAMMA", fluid.gamma)
         .flag("boundary_particles", walls)
         .flag("moving_boundaries", moving)
-        .flag("viscosity", viscous)
+        .flag("viscosity", explicit)
+        .flag("implicit_viscosity", implicit)
+        .flag("wall_shear", wall_shear)
         .flag("artificial_viscosity", damped)
-        .flag("drag", viscous || damped)
+        .flag("drag", explicit || damped)
         .constant("ERROR_SUMS", ERROR_SUMS)
         .constant("DENSITY_LOOP", DENSITY)
         .constant("DIVERGENCE_LOOP", DIVERGENCE)
+        .constant("VISCOSITY_LOOP", VISCOSITY)
         // What only compressible fluids have, in shaders that they share.
         .without(&["clamped_pressure", "continuity", "several_materials"])
         .flag("slips", walls && fluid.slip == Slip::FreeSlip)
@@ -98,7 +107,8 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         ..Solver::default()
     };
     // A vector more where there is drag.
-    let own_bytes = 32 + if viscous || damped { PACKED_BYTES } else { 0 };
+    let own_bytes = 32 + if explicit || damped { PACKED_BYTES } else { 0 };
+    let loops = if implicit { 3 } else { 2 };
     let each = u64::from(scene.capacity);
     let listed = match storage::row(scene.neighbors.storage).sorts {
         true => u64::from(scene.first_boundary()),
@@ -118,10 +128,15 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             4,
             "errors of particles, added as whole numbers",
         ),
-        BufferPlan::indirect("loop_dispatch", 4, 16, "workgroups of the loops that go on"),
+        BufferPlan::indirect(
+            "loop_dispatch",
+            2 * loops,
+            16,
+            "workgroups of the loops that go on",
+        ),
         BufferPlan::indirect(
             "check_dispatch",
-            2,
+            loops,
             16,
             "a workgroup for the checks of those loops",
         ),
@@ -171,13 +186,96 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         ..pass
     };
     let watch = "whether the loop goes on, so that its checks run";
+    solver.before_search.push(pass(
+        "apply_forces",
+        "apply_forces",
+        free,
+        "velocities after all forces but pressure",
+    ));
+    if implicit {
+        let sections = if wall_shear {
+            4 + scene.dimensions.count() as u64
+        } else {
+            3
+        };
+        solver.buffers.extend([
+            BufferPlan::storage(
+                "damped",
+                sections * listed,
+                PACKED_BYTES,
+                "velocities before and after a sweep of viscosity, and what walls do to them",
+            ),
+            BufferPlan::storage(
+                "damping",
+                1,
+                Damping::LAYOUT.size as u64,
+                "where the loop of viscosity is",
+            ),
+            BufferPlan::storage(
+                "shear_bound",
+                1,
+                4,
+                "a bound of what viscosity multiplies velocities by",
+            ),
+        ]);
+        solver.notes.push(why_implicit(scene, fluid));
+        solver.before_search.extend([
+            pass(
+                "begin_damping",
+                "begin_damping",
+                free,
+                "what walls do in the loop of viscosity",
+            ),
+            pass(
+                "control",
+                "begin_viscosity_loop",
+                once,
+                "the loop of viscosity begins",
+            ),
+            repeated(
+                VISCOSITY,
+                true,
+                pass("control", "watch_viscosity_loop", once, watch),
+            ),
+            repeated(
+                VISCOSITY,
+                false,
+                pass(
+                    "damp",
+                    "damp",
+                    Items::Loop(VISCOSITY),
+                    "a sweep over the equation of viscosity, and its errors",
+                ),
+            ),
+            repeated(
+                VISCOSITY,
+                false,
+                pass(
+                    "control",
+                    "check_viscosity",
+                    Items::LoopOnce(VISCOSITY),
+                    "whether velocities have converged",
+                ),
+            ),
+            repeated(
+                VISCOSITY,
+                false,
+                pass(
+                    "damp",
+                    "damp_again",
+                    Items::LoopSecond(VISCOSITY),
+                    "the next sweep",
+                ),
+            ),
+            pass(
+                "begin_damping",
+                "end_damping",
+                free,
+                "velocities after all forces but pressure",
+            ),
+        ]);
+    }
     solver.before_search.extend([
-        pass(
-            "apply_forces",
-            "apply_forces",
-            free,
-            "velocities after all forces but pressure",
-        ),
         pass(
             "divergence",
             "find_divergence",
@@ -318,11 +416,33 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     solver
 }
 
+/// What a plan says of implicit viscosity.
+fn why_implicit(scene: &Scene, fluid: &scene::fluid::Fluid) -> String {
+    let greatest = scene
+        .matters()
+        .map(|matter| given(matter).materials[0])
+        .map(|material| material.viscosity / material.density)
+        .fold(0.0, f64::max);
+    let explicit = fluid.viscous_step(greatest);
+    let step = scene
+        .time
+        .adaptive
+        .as_ref()
+        .map_or(scene.time.step, |limits| limits.constant.0);
+    format!(
+        "viscosity is found implicitly, by a loop in each step (fluid.max_viscosity_error): explicitly it would allow steps of \
+         {} s at most, and all else allows {} s",
+        number(explicit),
+        number(step)
+    )
+}
+
 /// The loops' numbers for the shaders.
 fn settings(scene: &Scene, fluid: &scene::fluid::Fluid) -> Dfsph {
     let given = coefficients(scene, fluid);
-    let slope = kernels::steepest(fluid.kernel, scene.dimensions.count());
     let smoothing = 1.0 / f64::from(given.inverse_smoothing);
+    let [shear, far_shear] = kernels::shear(fluid.kernel, scene.dimensions.count(), smoothing, fluid.spacing);
+    let slope = kernels::steepest(fluid.kernel, scene.dimensions.count());
     let lattice = kernels::lattice(fluid.kernel, scene.dimensions.count(), smoothing, fluid.spacing);
     let slope_volume = given.volume / lattice.gradient as f32;
     Dfsph {
@@ -340,5 +460,10 @@ fn settings(scene: &Scene, fluid: &scene::fluid::Fluid) -> Dfsph {
         surface_density: lattice.surface_density as f32,
         surface_slope: lattice.surface_slope as f32,
         surface_weight: lattice.surface_weight as f32,
+        viscosity_error: fluid.max_viscosity_error as f32,
+        viscosity_iterations: fluid.max_iterations,
+        speed: fluid.max_speed as f32,
+        shear: shear as f32,
+        far_shear: far_shear as f32,
     }
 }

@@ -104,6 +104,63 @@ pub fn lattice(kernel: Kernel, dimensions: usize, h: f64, spacing: f64) -> Latti
     found
 }
 
+/// Factors of the weights of viscous forces along pairs (Monaghan and Gingold 1983): of 2 V |dW/dr| / r, with the volume by which
+/// gradients on a lattice are right, and of the same times (r / spacing)⁴.
+///
+/// On a lattice such forces are those of an isotropic fluid, which resists alike along the lattice and across it, where two
+/// positive factors can do that. The fluid has its viscosity on average over lattices whose rows have slid along each other.
+pub fn shear(kernel: Kernel, dimensions: usize, h: f64, spacing: f64) -> [f64; 2] {
+    let count = dimensions as f64;
+    let reach = (kernel.reach() * h / spacing).ceil() as i32;
+    let ticks = |axis: usize, more: i32| match axis < dimensions {
+        true => -reach - more..=reach + more,
+        false => 0..=0,
+    };
+    // Of weights near to a particle and, in the second place, far from it: Σ w x⁴/r², Σ w x²y²/r², Σ w x² and Σ w r², rows of
+    // the lattice having slid by so many spacings from one to the next.
+    let sums = |slides: [f64; 2]| {
+        let mut sums = [[0.0; 4]; 2];
+        for z in ticks(2, 0) {
+            for y in ticks(1, 0) {
+                for x in ticks(0, 2 * reach) {
+                    let [y, z] = [y, z].map(f64::from);
+                    let x = f64::from(x) + slides[0] * y + slides[1] * z;
+                    let square = x * x + y * y + z * z;
+                    if square == 0.0 {
+                        continue;
+                    }
+                    let r = spacing * square.sqrt();
+                    let near = shape_slope(kernel, dimensions, r / h).abs() / r;
+                    for (sums, weight) in sums.iter_mut().zip([near, near * square * square]) {
+                        sums[0] += weight * x.powi(4) / square;
+                        sums[1] += weight * x * x * y * y / square;
+                        sums[2] += weight * x * x;
+                        sums[3] += weight * square;
+                    }
+                }
+            }
+        }
+        sums
+    };
+    let [near, far] = sums([0.0, 0.0]);
+    // An isotropic fluid has three times as much along as across.
+    let mut factors = [3.0 * far[1] - far[0], near[0] - 3.0 * near[1]];
+    if factors[0] * factors[1] < 0.0 {
+        factors = [1.0, 0.0];
+    }
+    // With x² summing up to 2, an isotropic fluid has 2 d (d + 2).
+    let slides: Vec<f64> = (0..8).map(|k| f64::from(k) / 8.0).collect();
+    let mut mean = 0.0;
+    for &of_rows in &slides {
+        for &of_layers in &slides {
+            let [near, far] = sums([of_rows, of_layers]);
+            mean += factors[0] * near[3] + factors[1] * far[3];
+        }
+    }
+    mean /= (slides.len() * slides.len()) as f64;
+    factors.map(|factor| factor * near[2] / 2.0 * 2.0 * count * (count + 2.0) / mean)
+}
+
 /// df/dq. Of Müller's kernels, that of the spiky one with its own factor, see [`slope_normalization`].
 pub fn shape_slope(kernel: Kernel, dimensions: usize, q: f64) -> f64 {
     if q >= kernel.reach() {
@@ -227,6 +284,48 @@ mod tests {
                 "{}",
                 found.surface_slope * 0.1
             );
+        }
+    }
+
+    /// What a smooth flow of an isotropic fluid feels: ∇²v along a shear wave, whichever way it runs through the lattice.
+    #[test]
+    fn shear_is_alike_along_a_lattice_and_across() {
+        let kernel = Kernel::WendlandC2;
+        for dimensions in [2, 3] {
+            let [near, far] = shear(kernel, dimensions, 1.0, 1.0);
+            assert!(near >= 0.0 && far > 0.0, "{dimensions}D: {near} {far}");
+            let volume = 1.0 / lattice_density(kernel, dimensions, 1.0, 1.0);
+            let volume = volume / lattice(kernel, dimensions, 1.0, 1.0).gradient;
+            // Of a velocity along `way` that grows with the square of the distance along `grows`.
+            let found = |way: [f64; 3], grows: [f64; 3]| {
+                let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
+                let ticks = |axis: usize| if axis < dimensions { -2..=2 } else { 0..=0 };
+                let mut sum = 0.0;
+                for x in ticks(0) {
+                    for y in ticks(1) {
+                        for z in ticks(2) {
+                            let s = [x, y, z].map(f64::from);
+                            let square = dot(s, s);
+                            if square > 0.0 {
+                                let r = square.sqrt();
+                                let weight = -2.0 * volume * slope(kernel, dimensions, 1.0, r) / r;
+                                let weight = weight * (near + far * square * square);
+                                sum += weight * 0.5 * dot(grows, s).powi(2) * dot(way, s).powi(2) / square;
+                            }
+                        }
+                    }
+                }
+                sum
+            };
+            let half = 0.5_f64.sqrt();
+            let straight = found([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+            let across = found([half, half, 0.0], [half, -half, 0.0]);
+            assert!(
+                (straight - across).abs() < 1e-9,
+                "{dimensions}D: {straight} {across}"
+            );
+            // A lattice whose rows have not slid resists a little more than others.
+            assert!((1.0..1.12).contains(&straight), "{dimensions}D: {straight}");
         }
     }
 

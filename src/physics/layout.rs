@@ -438,7 +438,25 @@ shared_struct! {
         pub most_divergence_iterations: u32,
         pub divergence_unconverged: u32,
         pub divergence_error: f32,
+        pub viscosity_iterations: u32,
+        pub most_viscosity_iterations: u32,
+        pub viscosity_unconverged: u32,
+        /// Share of what viscosity had to change that the worst step left.
+        pub viscosity_error: f32,
         pub iteration: u32,
+    }
+}
+
+shared_struct! {
+    /// Where the loop of implicit viscosity is.
+    pub struct Damping {
+        pub strength: f32,
+        pub step: f32,
+        pub radius: f32,
+        pub weight: f32,
+        pub next_weight: f32,
+        pub rounding: f32,
+        pub first: f32,
     }
 }
 
@@ -459,6 +477,11 @@ shared_struct! {
         pub surface_slope: f32,
         pub surface_weight: f32,
         pub steepest: f32,
+        pub viscosity_error: f32,
+        pub viscosity_iterations: u32,
+        pub speed: f32,
+        pub shear: f32,
+        pub far_shear: f32,
     }
 }
 
@@ -515,6 +538,7 @@ pub const SHARED: &[SharedLayout] = &[
     Rim::LAYOUT,
     Material::LAYOUT,
     Convergence::LAYOUT,
+    Damping::LAYOUT,
     Dfsph::LAYOUT,
     Sums::LAYOUT,
     Probe::LAYOUT,

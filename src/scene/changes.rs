@@ -119,3 +119,10 @@ pub(super) fn greatest_tension(file: &SceneFile) -> f64 {
     set.filter_map(|change| change.surface_tension)
         .fold(0.0, f64::max)
 }
+
+/// The greatest viscosity of a scene with one fluid, at its start or by events, Pa·s.
+pub(super) fn greatest_viscosity(file: &SceneFile) -> f64 {
+    let own = file.fluid.as_ref().map_or(0.0, |fluid| fluid.viscosity);
+    let set = file.events.iter().filter_map(|event| event.set.as_ref());
+    set.filter_map(|change| change.viscosity).fold(own, f64::max)
+}

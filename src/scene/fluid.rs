@@ -26,6 +26,9 @@ const SOUND_SHARE: f64 = 0.25;
 const VISCOUS_SHARE: f64 = 0.125;
 const FORCE_SHARE: f64 = 0.25;
 const CAPILLARY_SHARE: f64 = 0.25;
+/// Viscosity of `dfsph` is implicit where it would make explicit steps shorter than this share of those that all else allows. A
+/// loop costs about as much as one more step.
+const EXPLICIT_SHARE: f64 = 0.5;
 /// Share of the spacing that weight alone may press an incompressible fluid together in a step.
 const INCOMPRESSIBLE_FALL: f64 = 0.01;
 /// Names of the limits that change with the flow.
@@ -51,7 +54,10 @@ pub struct Fluid {
     /// Of `dfsph`: at which its loops stop, and most iterations of each.
     pub max_density_error: f64,
     pub max_divergence_error: f64,
+    pub max_viscosity_error: f64,
     pub max_iterations: u32,
+    /// Of `dfsph`: whether a loop finds what viscosity does in a step, whatever the step's length.
+    pub implicit_viscosity: bool,
     /// Of `dfsph`: share of the spacing that the fastest particle moves in a step.
     pub courant_number: f64,
     /// Of `dfsph`: longest step with which pressure holds fluid at rest, s.
@@ -228,7 +234,9 @@ impl Fluid {
             }),
             max_density_error: given.max_density_error,
             max_divergence_error: given.max_divergence_error,
+            max_viscosity_error: given.max_viscosity_error,
             max_iterations: given.max_iterations,
+            implicit_viscosity: false,
             courant_number: given.courant_number,
             rest_step: MOST_OF_FALL * given.spacing / fall_speed,
             background_pressure: given.background_pressure,
@@ -278,6 +286,28 @@ impl Fluid {
             free_surface,
             ..self
         }
+    }
+
+    /// The fluid, whose viscosity, at most `greatest`, Pa·s, during the run, is implicit where it would make steps much shorter.
+    /// `longest` is the scene's own step, seconds.
+    pub fn with_viscosity_up_to(self, greatest: f64, gravity: f64, longest: Option<f64>) -> Self {
+        let other = self.moving_step(gravity).min(longest.unwrap_or(f64::INFINITY));
+        let explicit = self.viscous_step(greatest / self.materials[0].density);
+        Self {
+            implicit_viscosity: self.solver == FluidSolver::Dfsph && explicit < EXPLICIT_SHARE * other,
+            ..self
+        }
+    }
+
+    /// The longest step of `dfsph` as far as motion and weight go, seconds.
+    pub fn moving_step(&self, gravity: f64) -> f64 {
+        let falling = (INCOMPRESSIBLE_FALL * self.spacing / gravity).sqrt();
+        falling.min(self.longest_step())
+    }
+
+    /// The longest explicit step with this kinematic viscosity, m²/s, seconds.
+    pub fn viscous_step(&self, kinematic: f64) -> f64 {
+        VISCOUS_SHARE * self.step_length().powi(2) / kinematic
     }
 
     /// h, metres.
@@ -338,7 +368,10 @@ impl Fluid {
     /// surface (Brackbill 1992; Morris 2000).
     pub fn step_limits(&self, gravity: f64) -> [(f64, &'static str); 4] {
         let h = self.step_length();
-        let kinematic = self.materials.iter().map(|m| m.viscosity / m.density);
+        let kinematic = self.materials.iter().map(|m| match self.implicit_viscosity {
+            true => 0.0,
+            false => m.viscosity / m.density,
+        });
         let tension = self.materials.iter().map(|m| m.surface_tension / m.density);
         let tension = tension.fold(0.0, f64::max);
         let fastest = kinematic.fold(0.0, f64::max) + self.artificial_viscosity * h * self.sound_speed / 8.0;
@@ -348,7 +381,7 @@ impl Fluid {
         };
         [
             signal,
-            (VISCOUS_SHARE * h * h / fastest, "viscosity"),
+            (self.viscous_step(fastest), "viscosity"),
             (FORCE_SHARE * (h / gravity).sqrt(), GRAVITY),
             (
                 CAPILLARY_SHARE * (h.powi(3) / (2.0 * PI * tension)).sqrt(),

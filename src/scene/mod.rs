@@ -45,7 +45,7 @@ pub mod shapes;
 pub mod signed_distance;
 pub mod start;
 pub mod synonyms;
-mod text;
+pub(crate) mod text;
 mod time;
 mod validate;
 mod vtp;

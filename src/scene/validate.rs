@@ -125,7 +125,13 @@ pub(super) fn validate(
                         fluid.spacing,
                         fluid.support,
                     ));
-            let fluid = fluid.with_surface(given, surface, gravity.length(), file.time.integrator());
+            let fluid = fluid
+                .with_surface(given, surface, gravity.length(), file.time.integrator())
+                .with_viscosity_up_to(
+                    changes::greatest_viscosity(&file),
+                    gravity.length(),
+                    file.time.step,
+                );
             let matter = Matter::Fluid(fluid.clone());
             let actions = schedule.actions(matter.clone());
             let later = actions.iter().filter_map(|scheduled| match &scheduled.action {

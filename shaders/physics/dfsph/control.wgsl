@@ -1,4 +1,5 @@
 // Begins, checks and ends the loops.
+#flag moves
 #import physics/dfsph/loop
 #import host/dispatch
 
@@ -53,10 +54,9 @@ struct Found {
     iterations: u32, // that the loop has made then
 }
 
-// Looks at the errors that a first pass found, and ends the loop when they are small. One iteration is made in any case; where
-// it was not needed, no second look follows.
-fn check(which: u32, largest_error: f32, most_iterations: u32) -> Found {
-    let error = mean_error();
+// Looks at the mean of the errors that a first pass found, and ends the loop when it is small. One iteration is made in any
+// case; where it was not needed, no second look follows.
+fn check(which: u32, error: f32, largest_error: f32, most_iterations: u32) -> Found {
     let done = convergence.iteration;
     convergence.iteration = done + 1u;
     let converged = error <= largest_error;
@@ -105,7 +105,7 @@ fn check_density() {
     if !goes_on(DENSITY_LOOP) {
         return;
     }
-    let found = check(DENSITY_LOOP, dfsph.density_error, dfsph.density_iterations);
+    let found = check(DENSITY_LOOP, mean_error(), dfsph.density_error, dfsph.density_iterations);
     if !found.is_last {
         return;
     }
@@ -121,7 +121,7 @@ fn check_divergence() {
     if !goes_on(DIVERGENCE_LOOP) {
         return;
     }
-    let found = check(DIVERGENCE_LOOP, dfsph.divergence_error, dfsph.divergence_iterations);
+    let found = check(DIVERGENCE_LOOP, mean_error(), dfsph.divergence_error, dfsph.divergence_iterations);
     if !found.is_last {
         return;
     }
@@ -130,3 +130,61 @@ fn check_divergence() {
     convergence.divergence_unconverged += u32(!found.converged);
     convergence.divergence_error = max(convergence.divergence_error, found.error);
 }
+#if implicit_viscosity
+
+// The loop of viscosity goes by Chebyshev's iteration: its sweeps damp all errors alike whose equation's matrix has its
+// eigenvalues between 1 and a bound.
+#import physics/time_step
+#import physics/fluid/coefficients
+#import physics/dfsph/damping
+
+var<storage, read_write> damping: Damping;
+var<storage, read_write> shear_bound: atomic<u32>;
+
+// Share of an eigenvalue by which numbers are rounded.
+const DAMPING_ROUNDING: f32 = 1e-7;
+
+@compute @workgroup_size(1)
+fn begin_viscosity_loop() {
+    begin_loop(VISCOSITY_LOOP);
+    if !goes_on(VISCOSITY_LOOP) {
+        return;
+    }
+    damping.strength = time_step() * fluid.viscosity / fluid.density;
+    let largest = 1.0 + damping.strength * bitcast<f32>(atomicExchange(&shear_bound, 0u));
+    damping.step = 2.0 / (largest + 1.0);
+    damping.radius = (largest - 1.0) / (largest + 1.0);
+    damping.weight = 1.0;
+    damping.rounding = DAMPING_ROUNDING * largest;
+}
+
+@compute @workgroup_size(1)
+fn watch_viscosity_loop() {
+    watch(VISCOSITY_LOOP);
+}
+
+@compute @workgroup_size(1)
+fn check_viscosity() {
+    if !goes_on(VISCOSITY_LOOP) {
+        return;
+    }
+    let square = damping.radius * damping.radius;
+    let first = convergence.iteration == 0u;
+    damping.next_weight = select(4.0 / (4.0 - square * damping.weight), 2.0 / (2.0 - square), first);
+    damping.weight = 4.0 / (4.0 - square * damping.next_weight);
+
+    let left = mean_error();
+    damping.first = select(damping.first, left, first);
+    let allowed = max(dfsph.viscosity_error * damping.first, damping.rounding);
+    let found = check(VISCOSITY_LOOP, left, allowed, dfsph.viscosity_iterations);
+    if !found.is_last {
+        return;
+    }
+    convergence.viscosity_iterations += found.iterations;
+    convergence.most_viscosity_iterations = max(convergence.most_viscosity_iterations, found.iterations);
+    convergence.viscosity_unconverged += u32(!found.converged);
+    let share = found.error / max(damping.first, 1e-30);
+    // Where viscosity had nothing to change, all that is left is rounding.
+    convergence.viscosity_error = max(convergence.viscosity_error, select(share, 0.0, found.error <= damping.rounding));
+}
+#end

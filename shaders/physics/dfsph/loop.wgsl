@@ -14,6 +14,10 @@ struct Convergence {
     most_divergence_iterations: u32,
     divergence_unconverged: u32,
     divergence_error: f32, // the same, of what a step's divergence adds to ρ/ρ₀
+    viscosity_iterations: u32,
+    most_viscosity_iterations: u32,
+    viscosity_unconverged: u32,
+    viscosity_error: f32, // share of what viscosity had to change that the worst step left
     iteration: u32, // of the loop that runs now
 }
 
@@ -34,6 +38,12 @@ struct Dfsph {
     surface_slope: f32,
     surface_weight: f32,
     steepest: f32, // largest gradient of the kernel times a particle's volume, 1/m
+    viscosity_error: f32, // share of what viscosity has to change that may be left
+    viscosity_iterations: u32, // at most
+    speed: f32, // that errors of viscosity are counted in, m/s
+    // Factors of the weights by which viscosity acts along pairs: of the pressure equation's, and of these times (r / spacing)⁴.
+    shear: f32,
+    far_shear: f32,
 }
 
 var<uniform> dfsph: Dfsph;

@@ -13,9 +13,16 @@
 #if drag
 #import physics/dfsph/drag
 #end
+#if wall_shear
+#import physics/dfsph/damping
+#import physics/dfsph/wall_shear
+#end
 
 var<storage, read> next_velocity: array<Packed>; // w: pressure, Pa
 var<storage, read> dispatch: array<vec4u>;
+#if wall_shear
+var<storage, read> damped: array<Packed>;
+#end
 
 fn force_on(i: u32) -> Vector {
     let x = unpack(position[i]);
@@ -37,6 +44,10 @@ fn force_on(i: u32) -> Vector {
             force += ((2.0 * acting + lift) * slope) * s;
 #if drag
             force += fluid.density * drag_by(j, v, s, slope);
+#end
+#if wall_shear
+            let apart = unpack(velocity[j]) - unpack(damped[section(DAMPED) + i]);
+            force += fluid.viscosity * (wall_shear_by(s) * apart);
 #end
         }
     }

@@ -7,6 +7,7 @@ use super::peer::{Material, Peer, RigidBody, Transform};
 use super::{Files, fluid, keys::Ignored};
 use crate::error::{Error, Result};
 use crate::scene::mesh::Mesh;
+use crate::scene::model;
 
 /// Room around everything where no box holds it, in particle radii.
 const ROOM: f64 = 20.0;
@@ -31,8 +32,15 @@ pub fn convert(
         bounds = (bounds.0.min(min), bounds.1.max(max));
         bodies.extend(fluid::model(peer, model, files, ignored)?);
     }
-    if !bodies.is_empty() {
-        notes.push(fluid::note(peer).into());
+    for emitter in &peer.emitters {
+        let reach = DVec3::splat(emitter.radius);
+        bounds = (
+            bounds.0.min(emitter.center - reach),
+            bounds.1.max(emitter.center + reach),
+        );
+    }
+    if !bodies.is_empty() || !peer.emitters.is_empty() {
+        notes.push(fluid::note(peer));
     }
     let Obstacles {
         colliders,
@@ -64,6 +72,19 @@ pub fn convert(
     });
     if let Some(duration) = peer.stop_at {
         scene["time"]["duration"] = duration.into();
+    }
+    if let (Some(step), "dfsph") = (
+        peer.time_step.most(),
+        scene["fluid"]["solver"].as_str().unwrap_or_default(),
+    ) {
+        scene["time"]["step"] = step.into();
+    }
+    let end = peer.stop_at.unwrap_or(model::Time::default().duration);
+    let (emitters, events) = fluid::emitters(peer, end, ignored);
+    for (key, list) in [("emitters", emitters), ("events", events)] {
+        if !list.is_empty() {
+            scene[key] = list.into();
+        }
     }
     if let Some(fps) = peer.fps {
         scene["time"]["fps"] = fps.into();
@@ -97,7 +118,7 @@ fn obstacles(
         bounds: fluid,
     };
     for body in &peer.bodies {
-        let mut ignore = |why: &str| ignored.push(Ignored::new(&body.path, why));
+        let mut ignore = |why: &str| ignored.push(Ignored::physics(&body.path, why));
         let Some(file) = &body.geometry else {
             ignore("it names no geometryFile");
             continue;
@@ -112,8 +133,9 @@ fn obstacles(
         };
         let (min, max) = placed.bounds();
         let (is_box, is_closed) = (is_box(&placed), placed.open_edges() == 0);
-        let holds_fluid = fluid.0.cmpge(min).all() && fluid.1.cmple(max).all();
-        let is_container = is_box && (body.is_inverted || (body.is_wall && holds_fluid));
+        let mut axes = 0..peer.dimensions;
+        let holds_fluid = axes.all(|axis| fluid.0[axis] >= min[axis] && fluid.1[axis] <= max[axis]);
+        let is_container = is_box && (body.is_inverted || holds_fluid);
         match (is_container, &found.container) {
             (true, None) => {
                 found.container = Some((min, max));
@@ -138,7 +160,7 @@ fn obstacles(
             _ => {}
         }
         if body.is_dynamic {
-            ignored.push(Ignored::new(
+            ignored.push(Ignored::physics(
                 format!("{}.isDynamic", body.path),
                 "obstacles rest where they start",
             ));

@@ -6,28 +6,37 @@ use serde_json::{Value, json};
 use super::Files;
 use super::convert::{coordinates, placement};
 use super::keys::Ignored;
-use super::peer::{Block, Model, Peer};
+use super::peer::{Block, Model, Peer, TimeStep, Viscosity};
 use crate::error::{Error, Result};
 use crate::scene::mesh::Mesh;
 use crate::scene::{Dimensions, particle_file};
 
 /// Plain words for the user.
-pub fn note(peer: &Peer) -> &'static str {
-    match solver(peer) {
-        Solver::Dfsph => {
-            "fluid becomes a fluid of the solver `dfsph` of the same spacing and density, with the viscosity of water: \
-             coefficients of the peer's viscosity methods have no counterpart"
-        }
+pub fn note(peer: &Peer) -> String {
+    let becomes = match solver(peer) {
+        Solver::Dfsph => "fluid becomes a fluid of the solver `dfsph` of the same spacing and density",
         Solver::Wcsph => {
-            "fluid becomes a weakly compressible fluid of the same spacing and density, with the viscosity of water and \
-             some artificial viscosity: coefficients of the peer's viscosity methods have no counterpart"
+            "fluid becomes a weakly compressible fluid of the same spacing and density, with some artificial viscosity"
         }
         Solver::WcsphForSeveral => {
-            "fluids become weakly compressible ones of the same spacing and densities, with the viscosity of water and some \
-             artificial viscosity: `dfsph` has one fluid only, and coefficients of the peer's viscosity methods have no \
-             counterpart"
+            "fluids become weakly compressible ones of the same spacing and densities, with some artificial viscosity: `dfsph` \
+             has one fluid only"
         }
-    }
+    };
+    let viscosity = match used(peer)
+        .iter()
+        .all(|id| viscosity(peer, id) == Viscosity::Unknown)
+    {
+        true => "; its viscosity is that of water, since none is given",
+        false => "",
+    };
+    format!("{becomes}{viscosity}")
+}
+
+/// Of a material by its id.
+fn viscosity(peer: &Peer, id: &str) -> Viscosity {
+    let found = peer.materials.iter().rfind(|material| material.id == id);
+    found.map_or(Viscosity::Unknown, |material| material.viscosity)
 }
 
 enum Solver {
@@ -49,6 +58,8 @@ fn solver(peer: &Peer) -> Solver {
 const VISCOSITY: f64 = 1e-3;
 /// Monaghan's α, which keeps impacts stable.
 const ARTIFICIAL_VISCOSITY: f64 = 0.05;
+/// Of the peer where its file gives none, seconds.
+const LONGEST_STEP: f64 = 0.005;
 /// kg/m³, where the peer's file gives none.
 const DENSITY: f64 = 1000.0;
 
@@ -56,7 +67,9 @@ const DENSITY: f64 = 1000.0;
 fn used(peer: &Peer) -> Vec<&str> {
     let blocks = peer.blocks.iter().map(|block| block.material.as_str());
     let mut ids = Vec::new();
-    for id in blocks.chain(peer.models.iter().map(|model| model.material.as_str())) {
+    let models = peer.models.iter().map(|model| model.material.as_str());
+    let emitters = peer.emitters.iter().map(|emitter| emitter.material.as_str());
+    for id in blocks.chain(models).chain(emitters) {
         if !ids.contains(&id) {
             ids.push(id);
         }
@@ -64,15 +77,77 @@ fn used(peer: &Peer) -> Vec<&str> {
     ids
 }
 
+/// Whether nothing of a scene says how fast its fluid will be.
+fn is_at_rest(peer: &Peer) -> bool {
+    let blocks = peer.blocks.iter().map(|block| block.velocity);
+    let models = peer.models.iter().map(|model| model.velocity);
+    peer.gravity == DVec3::ZERO && peer.emitters.is_empty() && blocks.chain(models).all(|v| v == DVec3::ZERO)
+}
+
+/// The scene's `emitters`, and the `events` that switch them before the run's `end`, seconds.
+pub fn emitters(peer: &Peer, end: f64, ignored: &mut Vec<Ignored>) -> (Vec<Value>, Vec<Value>) {
+    let (mut emitters, mut events) = (Vec::new(), Vec::new());
+    for (k, emitter) in peer.emitters.iter().enumerate() {
+        let name = format!("emitter_{k}");
+        if !emitter.is_round {
+            let why = "it is a rectangle there, and a disc of the same area here";
+            ignored.push(Ignored::physics(format!("{}.type", emitter.path), why));
+        }
+        let mut own = json!({
+            "name": name,
+            "center": coordinates(emitter.center, peer.dimensions),
+            "radius": emitter.radius,
+            "velocity": coordinates(emitter.velocity, peer.dimensions),
+        });
+        if used(peer).len() > 1 {
+            own["material"] = emitter.material.as_str().into();
+        }
+        if emitter.from > 0.0 {
+            own["on"] = false.into();
+        }
+        emitters.push(own);
+        let switches = [(emitter.from, true), (emitter.until, false)];
+        for (at, on) in switches.into_iter().filter(|(at, _)| (1e-9..end).contains(at)) {
+            events.push(json!({ "at": at, "emitter": { "name": name, "on": on } }));
+        }
+    }
+    (emitters, events)
+}
+
 /// The scene's `fluid`.
 pub fn substance(peer: &Peer, ignored: &mut Vec<Ignored>) -> Value {
     let is_dfsph = matches!(solver(peer), Solver::Dfsph);
-    let why = match is_dfsph {
-        true => "the step follows from the fluid's speed",
-        false => "the step follows from the speed of sound",
+    let TimeStep {
+        size,
+        method,
+        factor,
+        shortest,
+        longest,
+    } = &peer.time_step;
+    let mut ignore = |keys: &[&Option<(String, f64)>], why: &str| {
+        let given = keys.iter().copied().flatten();
+        ignored.extend(given.map(|(path, _)| Ignored::new(path, why)));
     };
-    for (path, _) in &peer.time_step {
-        ignored.push(Ignored::new(path, why));
+    if !is_dfsph {
+        let why = "the step follows from the speed of sound";
+        ignore(&[size, method, factor, shortest, longest], why);
+    } else if peer.time_step.is_fixed() {
+        ignore(&[shortest, longest], "steps are at most as long as timeStepSize");
+        ignore(&[method, factor], "shorter steps follow the fluid's motion");
+    } else {
+        ignore(&[size, shortest], "the step follows from the fluid's motion");
+    }
+    if is_dfsph && used(peer).len() == 1 && peer.is_compressible {
+        ignored.push(Ignored::physics(
+            "Configuration.simulationMethod",
+            "it is a compressible fluid there, and an incompressible one here",
+        ));
+    }
+    if matches!(solver(peer), Solver::WcsphForSeveral) {
+        ignored.push(Ignored::physics(
+            "Configuration.simulationMethod",
+            "several fluids are incompressible there, and weakly compressible here",
+        ));
     }
     let used = used(peer);
     for material in &peer.materials {
@@ -84,13 +159,49 @@ pub fn substance(peer: &Peer, ignored: &mut Vec<Ignored>) -> Value {
         let found = peer.materials.iter().rfind(|material| material.id == id);
         found.map_or(DENSITY, |material| material.density)
     };
+    let of_material = |id: &str| {
+        let kinematic = match viscosity(peer, id) {
+            Viscosity::Kinematic { fluid, .. } => fluid,
+            Viscosity::None => 0.0,
+            Viscosity::Unknown | Viscosity::Without => return VISCOSITY,
+        };
+        // So that no rounding is to be seen in the scene file.
+        (kinematic * density(id) * 1e9).round() / 1e9
+    };
+    for material in &peer.materials {
+        if material.viscosity == Viscosity::Without && used.contains(&material.id.as_str()) {
+            let why = "its coefficient has no unit, so the fluid has the viscosity of water; set fluid.viscosity, Pa·s";
+            ignored.push(Ignored::physics(
+                format!("{}.viscosityMethod", material.path),
+                why,
+            ));
+        }
+    }
     let mut fluid = json!({
         "solver": if is_dfsph { "dfsph" } else { "wcsph" },
         "spacing": 2.0 * peer.radius,
         "density": used.first().map_or(DENSITY, |id| density(id)),
-        "viscosity": VISCOSITY,
+        "viscosity": used.first().map_or(VISCOSITY, |id| of_material(id)),
     });
+    // There, walls resist by a coefficient of their own.
+    let slips = |id: &&str| {
+        matches!(
+            viscosity(peer, id),
+            Viscosity::Kinematic { boundary: 0.0, .. } | Viscosity::None
+        )
+    };
+    if !used.is_empty() && used.iter().all(slips) {
+        fluid["slip"] = "free_slip".into();
+    }
+    if is_at_rest(peer) {
+        fluid["max_speed"] = (peer.time_step.courant_number() * 2.0 * peer.radius
+            / peer.time_step.most().unwrap_or(LONGEST_STEP))
+        .into();
+    }
     if is_dfsph {
+        if !peer.time_step.is_fixed() {
+            fluid["courant_number"] = peer.time_step.courant_number().clamp(0.01, 1.0).into();
+        }
         let errors = [
             ("max_density_error", peer.density_error),
             ("max_divergence_error", peer.divergence_error),
@@ -104,7 +215,8 @@ pub fn substance(peer: &Peer, ignored: &mut Vec<Ignored>) -> Value {
         fluid["artificial_viscosity"] = ARTIFICIAL_VISCOSITY.into();
     }
     if used.len() > 1 {
-        let material = |id: &&str| json!({ "name": id, "density": density(id), "viscosity": VISCOSITY });
+        let material =
+            |id: &&str| json!({ "name": id, "density": density(id), "viscosity": of_material(id) });
         fluid["materials"] = used.iter().map(material).collect();
     }
     fluid
@@ -125,7 +237,7 @@ pub fn block(peer: &Peer, block: &Block, ignored: &mut Vec<Ignored>) -> Option<V
     }
     if block.dense_mode != 0.0 {
         let path = format!("{}.denseMode", block.path);
-        ignored.push(Ignored::new(path, "its particles stand on a plain lattice"));
+        ignored.push(Ignored::physics(path, "its particles stand on a plain lattice"));
     }
     let min = block.min + DVec3::splat(spacing - peer.radius);
     // A little more, so that rounding takes no layer away.
@@ -169,7 +281,7 @@ fn is_mesh(model: &Model) -> bool {
 pub fn model(peer: &Peer, model: &Model, files: &Files, ignored: &mut Vec<Ignored>) -> Result<Option<Value>> {
     let is_mesh = is_mesh(model);
     if is_mesh && peer.dimensions == 2 {
-        ignored.push(Ignored::new(&model.path, "a mesh has no place in a 2D scene"));
+        ignored.push(Ignored::physics(&model.path, "a mesh has no place in a 2D scene"));
         return Ok(None);
     }
     let shape = json!({

@@ -14,6 +14,8 @@ pub struct Ignored {
     pub path: String,
     /// Empty where Sliceflow knows nothing like it.
     pub why: String,
+    /// Whether the fluid will move in another way for lack of it.
+    pub changes_physics: bool,
 }
 
 impl Ignored {
@@ -21,6 +23,15 @@ impl Ignored {
         Self {
             path: path.into(),
             why: why.into(),
+            changes_physics: false,
+        }
+    }
+
+    /// For lack of it, the fluid will move in another way.
+    pub fn physics(path: impl Into<String>, why: impl Into<String>) -> Self {
+        Self {
+            changes_physics: true,
+            ..Self::new(path, why)
         }
     }
 }
@@ -84,6 +95,36 @@ impl Keys {
 
     pub fn number(&mut self, key: &str) -> Result<Option<f64>, Problem> {
         self.typed(key, "a number", |value| value.as_f64().filter(|n| n.is_finite()))
+    }
+
+    /// Takes a key out that switches on what Sliceflow has not: a number that is not 0, true, a text or a list with something
+    /// in it. Its loss changes the physics.
+    pub fn lacking(&mut self, key: &str, why: &str) {
+        let Some(value) = self.take(key) else { return };
+        let is_on = match &value {
+            Value::Null => false,
+            Value::Bool(is_on) => *is_on,
+            Value::Number(number) => number.as_f64() != Some(0.0),
+            Value::String(text) => !text.is_empty(),
+            Value::Array(list) => !list.is_empty(),
+            Value::Object(object) => !object.is_empty(),
+        };
+        if is_on {
+            self.rest.push(Ignored::physics(self.at(key), why));
+        }
+    }
+
+    /// The same for every key that ends so.
+    pub fn lacking_all(&mut self, ending: &str, why: &str) {
+        let keys = self
+            .value
+            .as_object()
+            .into_iter()
+            .flat_map(|object| object.keys());
+        let keys: Vec<String> = keys.filter(|key| key.ends_with(ending)).cloned().collect();
+        for key in keys {
+            self.lacking(&key, why);
+        }
     }
 
     /// True and false, or 1 and 0.

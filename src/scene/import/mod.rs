@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::allowance::Allowance;
-use super::{Scene, load};
+use super::{Scene, load, set};
 use crate::error::{Error, Result};
 use crate::files;
 
@@ -35,11 +35,16 @@ pub struct Imported {
 
 /// Reads a peer's scene file. Paths in the result start from the folder `into`, or are absolute.
 pub fn import(path: &Path, into: Option<&Path>) -> Result<Imported> {
-    import_within(path, into, &Allowance::default())
+    import_within(path, into, &[], &Allowance::default())
 }
 
-/// The same, where the result may not be larger than is allowed.
-pub fn import_within(path: &Path, into: Option<&Path>, allowance: &Allowance) -> Result<Imported> {
+/// The same with keys changed (`path=value`), where the result may not be larger than is allowed.
+pub fn import_within(
+    path: &Path,
+    into: Option<&Path>,
+    overrides: &[String],
+    allowance: &Allowance,
+) -> Result<Imported> {
     let help = "give a scene file of SPlisHSPlasH: JSON with Configuration, RigidBodies, FluidBlocks, …";
     let text = files::read_text(path).map_err(|reason| Error::file(path, "read", reason, help))?;
     let value: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
@@ -57,7 +62,10 @@ pub fn import_within(path: &Path, into: Option<&Path>, allowance: &Allowance) ->
     };
     let mut notes = Vec::new();
     let mut json = convert::convert(&peer, &files, &mut ignored, &mut notes)?;
-    if json["bodies"].as_array().is_none_or(Vec::is_empty) {
+    // What is lost in the physics comes first.
+    ignored.sort_by_key(|ignored| !ignored.changes_physics);
+    let is_empty = |key: &str| json[key].as_array().is_none_or(Vec::is_empty);
+    if is_empty("bodies") && is_empty("emitters") {
         return Err(nothing_left(path, &ignored));
     }
     let stem = path
@@ -71,6 +79,12 @@ pub fn import_within(path: &Path, into: Option<&Path>, allowance: &Allowance) ->
         path.file_name().unwrap_or_default().display()
     )
     .into();
+    for assignment in overrides {
+        set::apply(&mut json, assignment).map_err(|problem| Error::Scene {
+            file: path.display().to_string(),
+            problems: vec![problem],
+        })?;
+    }
     // Loaded from where it will stand.
     let base = into.map_or_else(PathBuf::new, Path::to_owned);
     let scene = load::parse_within(
@@ -95,18 +109,13 @@ fn nothing_left(path: &Path, ignored: &[Ignored]) -> Error {
         .iter()
         .map(|ignored| format!("\n  ignored: {ignored}"))
         .collect();
-    let has_emitters = ignored.iter().any(|ignored| ignored.path.starts_with("Emitters"));
-    let (what, help) = match has_emitters {
-        true => (
-            "all its fluid comes from Emitters, which are not imported, so no particles remain",
-            "give it FluidBlocks or FluidModels; emitters of Sliceflow are `emitters` in its own scenes",
+    Error::usage(
+        format!(
+            "{}: it has no fluid that can be imported, so no particles remain{list}",
+            path.display()
         ),
-        false => (
-            "it has no fluid that can be imported, so no particles remain",
-            "give it FluidBlocks or FluidModels",
-        ),
-    };
-    Error::usage(format!("{}: {what}{list}", path.display()), help)
+        "give it FluidBlocks, FluidModels or Emitters",
+    )
 }
 
 /// Where the peer's files are, and how the new scene names them.

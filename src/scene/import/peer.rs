@@ -14,11 +14,12 @@ pub struct Peer {
     /// Where the run ends, and frames a second.
     pub stop_at: Option<f64>,
     pub fps: Option<f64>,
-    /// Path and value of each setting of the time step.
-    pub time_step: Vec<(String, f64)>,
+    pub time_step: TimeStep,
     pub camera: Option<[DVec3; 2]>,
-    /// Whether its solver keeps densities constant, by loops.
+    /// Whether its solver is anything but WCSPH.
     pub is_incompressible: bool,
+    /// Whether it is another one that lets densities vary.
+    pub is_compressible: bool,
     /// What its loops of density and of divergence stop at, percent.
     pub density_error: Option<f64>,
     pub divergence_error: Option<f64>,
@@ -26,6 +27,40 @@ pub struct Peer {
     pub bodies: Vec<RigidBody>,
     pub blocks: Vec<Block>,
     pub models: Vec<Model>,
+    pub emitters: Vec<Emitter>,
+}
+
+/// Settings of the time step, seconds; each with its path.
+#[derive(Default)]
+pub struct TimeStep {
+    pub size: Option<(String, f64)>,
+    /// 0: steps do not follow the flow.
+    pub method: Option<(String, f64)>,
+    /// In units of 0.4 particle diameters that the fastest one may move.
+    pub factor: Option<(String, f64)>,
+    pub shortest: Option<(String, f64)>,
+    pub longest: Option<(String, f64)>,
+}
+
+impl TimeStep {
+    pub fn is_fixed(&self) -> bool {
+        self.method.as_ref().is_some_and(|(_, method)| *method == 0.0)
+    }
+
+    /// Share of a particle's diameter that the fastest one may move in a step.
+    pub fn courant_number(&self) -> f64 {
+        0.4 * self.factor.as_ref().map_or(0.5, |(_, factor)| *factor)
+    }
+
+    /// The longest step, seconds.
+    pub fn most(&self) -> Option<f64> {
+        let given = if self.is_fixed() {
+            &self.size
+        } else {
+            &self.longest
+        };
+        given.as_ref().map(|(_, step)| *step).filter(|&step| step > 0.0)
+    }
 }
 
 impl Peer {
@@ -35,7 +70,8 @@ impl Peer {
             .blocks
             .first()
             .map(|b| &b.material)
-            .or(self.models.first().map(|m| &m.material))?;
+            .or(self.models.first().map(|m| &m.material))
+            .or(self.emitters.first().map(|e| &e.material))?;
         self.materials.iter().rfind(|material| material.id == *first)
     }
 }
@@ -44,10 +80,38 @@ pub struct Material {
     pub path: String,
     pub id: String,
     pub density: f64,
+    pub viscosity: Viscosity,
     pub color_field: Option<String>,
     pub color_map: Option<f64>,
     pub range: [Option<f64>; 2],
 }
+
+/// What the peer's methods make of viscosity.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Viscosity {
+    /// Nothing is said.
+    Unknown,
+    None,
+    /// m²/s.
+    Kinematic {
+        fluid: f64,
+        boundary: f64,
+    },
+    /// A number that has no unit.
+    Without,
+}
+
+/// The peer's methods of viscosity by their numbers: 1 and so on. Whether their coefficient is a kinematic viscosity.
+const VISCOSITY_METHODS: [(&str, bool); 6] = [
+    ("Standard viscosity", true),
+    ("Bender and Koschier 2017", false),
+    ("Peer et al. 2015", false),
+    ("Peer et al. 2016", false),
+    ("Takahashi et al. 2015 (improved)", true),
+    ("Weiler et al. 2018", true),
+];
+/// What it takes where a method has no coefficient, m²/s.
+const USUAL_VISCOSITY: f64 = 0.01;
 
 /// Scaled, then turned, then moved.
 pub struct Transform {
@@ -93,6 +157,39 @@ pub struct Model {
     pub velocity: DVec3,
 }
 
+/// Where fluid comes from.
+pub struct Emitter {
+    pub path: String,
+    pub material: String,
+    pub center: DVec3,
+    pub velocity: DVec3,
+    /// Metres, of a disc as large as the rectangle where it is none.
+    pub radius: f64,
+    pub is_round: bool,
+    /// Seconds.
+    pub from: f64,
+    pub until: f64,
+}
+
+/// What Sliceflow has not, each with what it does instead.
+const LACKING: &[(&str, &str)] = &[
+    (
+        "AnimationFields",
+        "nothing prescribes velocities in parts of the domain",
+    ),
+    ("scriptFile", "scripts do not run"),
+];
+const LACKING_OF_MATERIALS: &[(&str, &str)] = &[
+    ("elasticityMethod", "it is elastic there, and a fluid here"),
+    ("surfaceTensionMethod", "this fluid has no surface tension"),
+    ("dragMethod", "air does not drag the fluid"),
+    ("vorticityMethod", "no vorticity is added to the fluid's own"),
+    (
+        "emitterReuseParticles",
+        "particles that leave stay gone, and emitters make new ones",
+    ),
+];
+
 pub fn read(keys: &mut Keys) -> Result<Peer, Problem> {
     let mut peer = keys
         .object("Configuration", configuration)?
@@ -102,16 +199,24 @@ pub fn read(keys: &mut Keys) -> Result<Peer, Problem> {
             gravity: DVec3::new(0.0, -9.81, 0.0),
             stop_at: None,
             fps: None,
-            time_step: Vec::new(),
+            time_step: TimeStep::default(),
             camera: None,
             is_incompressible: true,
+            is_compressible: false,
             density_error: None,
             divergence_error: None,
             materials: Vec::new(),
             bodies: Vec::new(),
             blocks: Vec::new(),
             models: Vec::new(),
+            emitters: Vec::new(),
         });
+    let (radius, dimensions) = (peer.radius, peer.dimensions);
+    peer.emitters = keys.list("Emitters", |keys| emitter(keys, radius, dimensions))?;
+    for (key, why) in LACKING {
+        keys.lacking(key, why);
+    }
+    keys.lacking_all("Joints", "bodies are neither joined nor driven");
     peer.materials.extend(keys.list("Materials", material)?);
     peer.bodies = keys.list("RigidBodies", rigid_body)?;
     peer.blocks = keys.list("FluidBlocks", block)?;
@@ -120,15 +225,16 @@ pub fn read(keys: &mut Keys) -> Result<Peer, Problem> {
 }
 
 fn configuration(keys: &mut Keys) -> Result<Peer, Problem> {
-    let mut time_step = Vec::new();
-    for key in [
-        "timeStepSize",
-        "cflMethod",
-        "cflFactor",
-        "cflMinTimeStepSize",
-        "cflMaxTimeStepSize",
-    ] {
-        time_step.extend(keys.number(key)?.map(|value| (keys.at(key), value)));
+    let mut with_path = |key: &str| Ok(keys.number(key)?.map(|value| (keys.at(key), value)));
+    let time_step = TimeStep {
+        size: with_path("timeStepSize")?,
+        method: with_path("cflMethod")?,
+        factor: with_path("cflFactor")?,
+        shortest: with_path("cflMinTimeStepSize")?,
+        longest: with_path("cflMaxTimeStepSize")?,
+    };
+    for (key, why) in LACKING {
+        keys.lacking(key, why);
     }
     // 0 is WCSPH; DFSPH is what the peer takes where nothing is said, and all others keep the fluid incompressible too.
     let method = keys.number("simulationMethod")?;
@@ -151,6 +257,8 @@ fn configuration(keys: &mut Keys) -> Result<Peer, Problem> {
         fps: keys.number("dataExportFPS")?,
         time_step,
         is_incompressible: method != Some(0.0),
+        // Projective fluids and ICSPH.
+        is_compressible: method.is_some_and(|method| method > 4.0),
         density_error,
         divergence_error,
         camera: match camera {
@@ -162,6 +270,7 @@ fn configuration(keys: &mut Keys) -> Result<Peer, Problem> {
                 path: keys.path.clone(),
                 id: "Fluid".into(),
                 density,
+                viscosity: Viscosity::Unknown,
                 color_field: None,
                 color_map: None,
                 range: [None; 2],
@@ -171,14 +280,76 @@ fn configuration(keys: &mut Keys) -> Result<Peer, Problem> {
         bodies: Vec::new(),
         blocks: Vec::new(),
         models: Vec::new(),
+        emitters: Vec::new(),
+    })
+}
+
+fn viscosity(keys: &mut Keys) -> Result<Viscosity, Problem> {
+    // Older scenes have the coefficients in the material itself.
+    let coefficients = |keys: &mut Keys| Ok((keys.number("viscosity")?, keys.number("viscosityBoundary")?));
+    let own = coefficients(keys)?;
+    let Some(method) = keys.number("viscosityMethod")? else {
+        return Ok(Viscosity::Unknown);
+    };
+    let Some((name, is_kinematic)) = VISCOSITY_METHODS
+        .get((method - 1.0) as usize)
+        .filter(|_| method >= 1.0)
+    else {
+        return Ok(if method == 0.0 {
+            Viscosity::None
+        } else {
+            Viscosity::Without
+        });
+    };
+    if !is_kinematic {
+        return Ok(Viscosity::Without);
+    }
+    let (fluid, boundary) = keys.object(name, coefficients)?.unwrap_or(own);
+    Ok(Viscosity::Kinematic {
+        fluid: fluid.unwrap_or(USUAL_VISCOSITY).max(0.0),
+        boundary: boundary.unwrap_or(0.0),
+    })
+}
+
+fn emitter(keys: &mut Keys, radius: f64, dimensions: usize) -> Result<Emitter, Problem> {
+    let is_round = keys.number("type")? == Some(1.0);
+    let [width, height] = [
+        keys.number("width")?.unwrap_or(5.0),
+        keys.number("height")?.unwrap_or(5.0),
+    ];
+    let transform = transform(keys)?;
+    let direction = match dimensions {
+        // There, all turns of a flat scene are about z.
+        2 => DQuat::from_rotation_z(transform.turn.to_scaled_axis().length()) * DVec3::X,
+        _ => transform.turn * DVec3::X,
+    };
+    Ok(Emitter {
+        path: keys.path.clone(),
+        material: keys.text("id")?.unwrap_or_else(|| "Fluid".into()),
+        center: transform.translation,
+        velocity: keys.number("velocity")?.unwrap_or(1.0) * direction,
+        // In particles, `width` is a disc's diameter; of a rectangle, a flat scene sees the height.
+        radius: radius
+            * match (is_round, dimensions) {
+                (true, _) => width,
+                (false, 2) => height,
+                (false, _) => (width * height * 4.0 / std::f64::consts::PI).sqrt(),
+            },
+        is_round: is_round || dimensions == 2,
+        from: keys.number("emitStartTime")?.unwrap_or(0.0),
+        until: keys.number("emitEndTime")?.unwrap_or(f64::INFINITY),
     })
 }
 
 fn material(keys: &mut Keys) -> Result<Material, Problem> {
+    for (key, why) in LACKING_OF_MATERIALS {
+        keys.lacking(key, why);
+    }
     Ok(Material {
         path: keys.path.clone(),
         id: keys.text("id")?.unwrap_or_else(|| "Fluid".into()),
         density: keys.number("density0")?.unwrap_or(1000.0),
+        viscosity: viscosity(keys)?,
         color_field: keys.text("colorField")?,
         color_map: keys.number("colorMapType")?,
         range: [keys.number("renderMinValue")?, keys.number("renderMaxValue")?],
@@ -199,6 +370,7 @@ fn transform(keys: &mut Keys) -> Result<Transform, Problem> {
 }
 
 fn rigid_body(keys: &mut Keys) -> Result<RigidBody, Problem> {
+    keys.lacking("isAnimated", "obstacles rest where they start");
     Ok(RigidBody {
         path: keys.path.clone(),
         geometry: keys.text("geometryFile")?,

@@ -1,12 +1,12 @@
 use std::path::PathBuf;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use serde_json::json;
 
 use super::*;
 use crate::scene::ColliderShape;
 use crate::scene::mesh::samples::cube;
-use crate::scene::model::FluidSolver;
+use crate::scene::model::{FluidSolver, Slip};
 
 /// A folder with the meshes `box.obj` (a cube of side 1), `wedge.obj` (half of it) and a scene.
 fn folder(scene: &Value) -> (tempfile::TempDir, PathBuf) {
@@ -163,9 +163,7 @@ fn what_has_no_effect_is_listed_by_its_place() {
     assert_eq!(
         found,
         [
-            "AnimationFields",
             "Configuration.timeStepSize",
-            "Materials[0].viscosityMethod",
             "RigidBodies[0].mapResolution",
             "RigidBodies[1].isDynamic",
         ]
@@ -236,6 +234,9 @@ fn several_fluids_keep_their_materials() {
 fn flat_scenes_stay_flat() {
     let mut scene = dam();
     scene["Configuration"]["sim2D"] = true.into();
+    // What lies across the plane does not matter.
+    scene["FluidBlocks"][0]["start"][2] = json!(-5.0);
+    scene["RigidBodies"][0]["mapInvert"] = false.into();
     let (folder, path) = folder(&scene);
     let imported = import(&path, Some(folder.path())).unwrap();
     assert_eq!(imported.scene.particles.len(), 19 * 19);
@@ -279,18 +280,120 @@ fn mistakes_are_told_with_their_place() {
 }
 
 #[test]
-fn a_scene_of_emitters_alone_says_what_was_ignored_and_that_nothing_is_left() {
+fn emitters_flow_where_and_when_they_did() {
     let mut scene = dam();
     scene.as_object_mut().unwrap().remove("FluidBlocks");
-    scene["Emitters"] = json!([{ "width": 5, "height": 5, "translation": [0, 1, 0], "velocity": 2 }]);
+    scene["Emitters"] = json!([
+        { "type": 1, "width": 6, "translation": [0, 1, 0], "velocity": 2, "emitStartTime": 0.5, "emitEndTime": 1.0,
+          "rotationAxis": [0, 0, 1], "rotationAngle": -std::f64::consts::FRAC_PI_2 },
+        { "width": 8, "height": 3, "translation": [-1, 2, 0], "velocity": 1, "emitEndTime": 9 },
+    ]);
+    let (folder, path) = folder(&scene);
+    let imported = import(&path, Some(folder.path())).unwrap();
+    let [round, wide] = &imported.scene.file.emitters[..] else {
+        panic!("{}", imported.json)
+    };
+    // As wide as six particles, and down.
+    assert!((round.radius - 0.15).abs() < 1e-9, "{}", round.radius);
+    let down = DVec3::from_slice(&round.velocity.0);
+    assert!(down.distance(DVec3::new(0.0, -2.0, 0.0)) < 1e-9, "{down}");
+    let area = std::f64::consts::PI * wide.radius * wide.radius;
+    assert!((area - 8.0 * 3.0 * 0.05 * 0.05).abs() < 1e-9, "{area} m²");
+    assert_eq!((round.on, wide.on), (false, true));
+    // The run ends before the second one does.
+    let switches = imported.json["events"].as_array().unwrap();
+    let times: Vec<_> = switches
+        .iter()
+        .map(|event| event["at"].as_f64().unwrap())
+        .collect();
+    assert_eq!(times, [0.5, 1.0]);
+    let warned = imported.ignored.iter().filter(|ignored| ignored.changes_physics);
+    let warned: Vec<_> = warned.map(|ignored| ignored.path.as_str()).collect();
+    assert_eq!(warned, ["RigidBodies[1].isDynamic", "Emitters[1].type"]);
+}
+
+/// Coefficients of three of the peer's methods are kinematic viscosities; those of the others have no unit.
+#[test]
+fn viscosity_is_that_of_the_peer() {
+    let scene = |materials: Value| {
+        let mut scene = dam();
+        scene["Materials"] = materials;
+        let (folder, path) = folder(&scene);
+        import(&path, Some(folder.path())).unwrap()
+    };
+    let honey = scene(json!([{ "id": "Fluid", "density0": 1400, "viscosityMethod": 6,
+        "Weiler et al. 2018": { "viscosity": 0.5, "viscosityBoundary": 0.4, "viscoMaxIter": 9 } }]));
+    let fluid = honey.scene.fluid().unwrap();
+    assert_eq!(fluid.materials[0].viscosity, 700.0);
+    assert!(fluid.implicit_viscosity && fluid.slip == Slip::NoSlip);
+    assert!(
+        !honey
+            .ignored
+            .iter()
+            .any(|ignored| ignored.path.starts_with("Materials") && ignored.changes_physics)
+    );
+    let water = scene(json!([{ "id": "Fluid", "density0": 1000, "viscosityMethod": 1,
+        "Standard viscosity": { "viscosity": 0.01, "viscosityBoundary": 0 } }]));
+    let fluid = water.scene.fluid().unwrap();
+    assert_eq!((fluid.materials[0].viscosity, fluid.slip), (10.0, Slip::FreeSlip));
+    let peer =
+        scene(json!([{ "id": "Fluid", "viscosityMethod": 4, "elasticityMethod": 0, "dragMethod": 2 }]));
+    assert_eq!(peer.scene.fluid().unwrap().materials[0].viscosity, 1e-3);
+    let lost: Vec<_> = peer
+        .ignored
+        .iter()
+        .filter(|ignored| ignored.changes_physics)
+        .collect();
+    let paths: Vec<_> = lost.iter().map(|lost| lost.path.as_str()).collect();
+    for path in ["Materials[0].viscosityMethod", "Materials[0].dragMethod"] {
+        assert!(paths.contains(&path), "{paths:?}");
+    }
+    assert!(!paths.contains(&"Materials[0].elasticityMethod"));
+    // They stand before all else.
+    assert!(
+        peer.ignored[..lost.len()]
+            .iter()
+            .all(|ignored| ignored.changes_physics)
+    );
+}
+
+#[test]
+fn steps_are_as_long_as_the_peers() {
+    let scene = |configuration: Value| {
+        let mut scene = dam();
+        for (key, value) in configuration.as_object().unwrap() {
+            scene["Configuration"][key] = value.clone();
+        }
+        let (folder, path) = folder(&scene);
+        import(&path, Some(folder.path())).unwrap().scene
+    };
+    let follows = scene(json!({ "cflMethod": 1, "cflFactor": 0.5, "cflMaxTimeStepSize": 0.002 }));
+    let fluid = follows.fluid().unwrap();
+    assert_eq!((fluid.courant_number, follows.file.time.step), (0.2, Some(0.002)));
+    let fixed = scene(json!({ "cflMethod": 0, "timeStepSize": 0.001, "gravitation": [0, 0, 0] }));
+    assert_eq!(fixed.file.time.step, Some(0.001));
+    let floating = scene(json!({ "gravitation": [0, 0, 0] }));
+    assert!(floating.fluid().unwrap().max_speed > 0.0);
+}
+
+#[test]
+fn keys_can_be_changed() {
+    let (folder, path) = folder(&dam());
+    let overrides = ["fluid.viscosity=7", "time.duration=0.5"].map(str::to_owned);
+    let imported = import_within(&path, Some(folder.path()), &overrides, &Allowance::default()).unwrap();
+    assert_eq!(imported.scene.fluid().unwrap().materials[0].viscosity, 7.0);
+    assert_eq!(imported.json["time"]["duration"], 0.5);
+    let wrong = import_within(&path, None, &["fluid".to_owned()], &Allowance::default());
+    assert!(wrong.unwrap_err().to_string().contains("no `=`"));
+}
+
+#[test]
+fn a_scene_without_fluid_says_what_was_ignored_and_that_nothing_is_left() {
+    let mut scene = dam();
+    scene.as_object_mut().unwrap().remove("FluidBlocks");
     let (_folder, path) = folder(&scene);
     let message = import(&path, None).unwrap_err().to_string();
-    for wanted in [
-        "comes from Emitters",
-        "no particles remain",
-        "ignored: Emitters",
-        "FluidBlocks",
-    ] {
+    for wanted in ["no particles remain", "ignored: RigidBodies", "FluidBlocks"] {
         assert!(message.contains(wanted), "{wanted}: {message}");
     }
 }

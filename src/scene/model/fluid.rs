@@ -47,6 +47,11 @@ pub struct Fluid {
     #[serde(default = "divergence_error")]
     #[schemars(range(min = 1e-6, max = 0.1))]
     pub max_divergence_error: f64,
+    /// Of `dfsph`, where viscosity is so high that steps find it implicitly: share of what it changes in a step that its loop
+    /// may leave.
+    #[serde(default = "viscosity_error")]
+    #[schemars(range(min = 1e-4, max = 0.5))]
+    pub max_viscosity_error: f64,
     /// Of `dfsph`: most iterations of each loop in a step. Steps that stop there are counted in `stats.jsonl`.
     #[serde(default = "iterations")]
     #[schemars(range(min = 3, max = 1000))]
@@ -129,6 +134,10 @@ fn density_error() -> f64 {
 
 fn divergence_error() -> f64 {
     5e-5
+}
+
+fn viscosity_error() -> f64 {
+    0.01
 }
 
 fn iterations() -> u32 {

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::gpu::reflect::ResourceKind;
 use crate::gpu::{Items, PassPlan, Shader};
 use crate::neighbors::lists;
-use crate::physics::dfsph::{DENSITY, DIVERGENCE};
+use crate::physics::dfsph::{DENSITY, DIVERGENCE, VISCOSITY};
 use crate::plan::{Phase, Plan};
 use crate::scene::Scene;
 
@@ -25,6 +25,7 @@ pub struct Rates {
     /// Iterations of the loops of `dfsph`.
     pub density_iterations: f64,
     pub divergence_iterations: f64,
+    pub viscosity_iterations: f64,
     /// Pairs in reach, each from both sides.
     pub pairs: f64,
 }
@@ -81,6 +82,7 @@ fn times(pass: &PassPlan, rates: Rates) -> f64 {
         Items::Loop(_) if pass.repeat.is_none() => 1.0,
         Items::Loop(DENSITY) | Items::LoopSecond(DENSITY) => rates.density_iterations,
         Items::Loop(DIVERGENCE) | Items::LoopSecond(DIVERGENCE) => rates.divergence_iterations,
+        Items::Loop(VISCOSITY) | Items::LoopSecond(VISCOSITY) => rates.viscosity_iterations,
         _ => 1.0,
     }
 }
@@ -135,6 +137,7 @@ mod tests {
                     searches: 0.1,
                     density_iterations: 3.0,
                     divergence_iterations: 2.0,
+                    viscosity_iterations: 0.0,
                     pairs,
                 };
                 let demands = of_step(&scene, &plan, rates).unwrap();

@@ -264,6 +264,7 @@ fn one(
         searches: f64::from(searches) / steps.max(1) as f64,
         density_iterations: per_loop(|c| c.density_iterations),
         divergence_iterations: per_loop(|c| c.divergence_iterations),
+        viscosity_iterations: per_loop(|c| c.viscosity_iterations),
         pairs: pairs as f64,
     };
     let demands = demand::of_step(&scene, &plan, rates)?;
