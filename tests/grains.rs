@@ -287,11 +287,12 @@ fn the_guard_names_what_was_lost() {
     let mut scene = collision(&[], 0.0);
     scene.particles.velocity[1] = Vec3::new(0.0, 4.0e4, 0.0);
     let error = run(&scene, 1).expect_err("a lost grain");
-    let Error::Guard(casualty) = &error else {
+    let Error::Guard(violation) = &error else {
         panic!("{error}")
     };
-    assert_eq!((casualty.id, casualty.frame), (1, 1));
-    assert!(casualty.velocity[1] > 3.9e4);
+    let caught = violation.particle.as_ref().expect("a particle");
+    assert_eq!((caught.id, violation.frame), (1, 1));
+    assert!(caught.velocity[1] > 3.9e4);
     assert!(error.to_string().contains("left the domain"), "{error}");
 
     scene.particles.velocity[1] = Vec3::new(0.0, f32::NAN, 0.0);

@@ -1,0 +1,178 @@
+//! Runs that a guard stops, and that go back to the last good checkpoint with a smaller step where the user wants that.
+
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::checkpoint::Checkpoint;
+use super::configuration::Configuration;
+use super::drive::{self, Launch, Start};
+use super::folder::Folder;
+use super::progress::Progress;
+use super::resume::{newest, part_from};
+use super::run::Settings;
+use crate::error::{Error, Result, Violation};
+use crate::physics::layout::StepControl;
+use crate::scene::Scene;
+
+/// Steps are halved so often at most in a run.
+const MOST_HALVINGS: u32 = 5;
+
+/// What a run does that a guard has stopped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+pub enum OnInstability {
+    /// It ends, with a post-mortem folder.
+    #[default]
+    Stop,
+    /// It goes back to the last good checkpoint with half the step, five times at most
+    Retry,
+}
+
+/// A time that a run went back with half the step.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Retry {
+    /// The frame of the checkpoint that the run went on from; null where it began anew.
+    pub from_frame: Option<u32>,
+    /// The guard that had stopped it, in one word.
+    pub guard: String,
+    /// What the guard had found, and where.
+    pub message: String,
+    /// Frame that was about to be written then.
+    pub frame: u32,
+    /// Steps until then, since the run began.
+    pub step: u64,
+    /// Length of the steps then, seconds.
+    pub step_s: f64,
+    /// How often steps have been halved with this retry.
+    pub halvings: u32,
+}
+
+/// How often steps had been halved for the frames that follow a checkpoint, or a beginning.
+pub fn halvings(retries: &[Retry], behind: Option<u32>) -> u32 {
+    let before = retries.iter().filter(|retry| retry.from_frame <= behind);
+    before.map(|retry| retry.halvings).max().unwrap_or(0)
+}
+
+/// The scene with steps of half the length, so many times.
+pub fn halved(scene: &Scene, halvings: u32) -> Scene {
+    let mut scene = scene.clone();
+    let share = 0.5_f64.powi(halvings as i32);
+    let time = &mut scene.time;
+    time.steps_per_frame <<= halvings;
+    time.step *= share;
+    if let Some(limits) = &mut time.adaptive {
+        limits.expected *= share;
+        limits.constant.0 *= share;
+        limits.courant_distance *= share;
+        // A step is the square root of this over an acceleration.
+        limits.fall *= share * share;
+    }
+    scene
+}
+
+/// Shortens the adaptive step that comes after a checkpoint to what steps are that have been halved so often.
+pub fn shorten(checkpoint: &mut Checkpoint, halvings: u32) {
+    let more = halvings.saturating_sub(checkpoint.about.halvings);
+    checkpoint.about.halvings = halvings;
+    let mut buffers = checkpoint.state.buffers.iter_mut();
+    let found = buffers.find(|(name, _)| name == "step_control");
+    if let Some((_, bytes)) = found {
+        let mut control: StepControl = bytemuck::pod_read_unaligned(bytes);
+        control.wanted *= 0.5_f32.powi(more as i32);
+        *bytes = bytemuck::bytes_of(&control).to_vec();
+    }
+}
+
+/// Drives a run to its end, or until a guard stops it for good.
+pub(super) fn drive(mut launch: Launch) -> Result<()> {
+    loop {
+        let again = Again::of(&launch);
+        let may_retry = launch.settings.on_instability == OnInstability::Retry;
+        let made = halvings(&launch.retries, Some(u32::MAX));
+        launch.is_last_attempt = !may_retry || made >= MOST_HALVINGS;
+        match drive::drive(launch) {
+            Err(Error::Guard(violation)) if again.is_of_use(may_retry, made, &violation) => {
+                launch = again.launch(made + 1, &violation)?;
+            }
+            outcome => return outcome,
+        }
+    }
+}
+
+/// What of a launch the next one needs.
+struct Again<'a> {
+    scene: &'a Scene,
+    settings: Settings,
+    folder: Arc<Folder>,
+    configuration: Configuration,
+    retries: Vec<Retry>,
+    wall_s: f64,
+}
+
+impl<'a> Again<'a> {
+    fn of(launch: &Launch<'a>) -> Self {
+        Self {
+            scene: launch.scene,
+            settings: launch.settings.clone(),
+            folder: launch.folder.clone(),
+            configuration: launch.configuration.clone(),
+            retries: launch.retries.clone(),
+            wall_s: launch.wall_s,
+        }
+    }
+
+    /// Whether smaller steps may help.
+    fn is_of_use(&self, may_retry: bool, made: u32, violation: &Violation) -> bool {
+        may_retry && made < MOST_HALVINGS && violation.may_come_of_steps()
+    }
+
+    /// The run once more, from its newest checkpoint on.
+    fn launch(mut self, halvings: u32, violation: &Violation) -> Result<Launch<'a>> {
+        let progress = Progress::new(self.settings.progress, self.scene.time.frames);
+        progress.warn(&violation.to_string());
+        let found = newest(
+            self.folder.path(),
+            &self.configuration,
+            self.scene,
+            u32::MAX,
+            &progress,
+        )?;
+        let from_frame = found.as_ref().map(|checkpoint| checkpoint.state.frame);
+        self.retries.push(Retry {
+            from_frame,
+            guard: violation.guard.into(),
+            message: violation.to_string(),
+            frame: violation.frame,
+            step: violation.step,
+            step_s: violation.step_s,
+            halvings,
+        });
+        let place = match from_frame {
+            Some(frame) => format!("after frame {frame}"),
+            None => "at the beginning".to_owned(),
+        };
+        progress.warn(&format!(
+            "retrying {place} with steps of half the length ({halvings} of {MOST_HALVINGS} times)"
+        ));
+        let start = match found {
+            Some(checkpoint) => Start::Behind(Box::new(checkpoint)),
+            None => Start::Again,
+        };
+        let next = start.state().map_or(0, |state| state.frame + 1);
+        let is_variant = self.configuration.variant_of.is_some();
+        let settings = part_from(&self.settings, next, is_variant, &self.configuration, &progress);
+        Ok(Launch {
+            scene: self.scene,
+            settings,
+            folder: self.folder,
+            progress,
+            configuration: self.configuration,
+            start,
+            wall_s: self.wall_s,
+            retries: self.retries,
+            is_last_attempt: false,
+        })
+    }
+}
