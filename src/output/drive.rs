@@ -306,7 +306,7 @@ impl Run<'_> {
             self.checkpoint_when_due(simulation, false)?;
         }
         let mut given_up = false;
-        let mut used_up = None;
+        let mut used_up = self.look_at_disk()?;
         let mut took_s = None;
         while simulation.next_index() < frames && !given_up && used_up.is_none() && !interrupt::asked() {
             self.prepare_to_stop(simulation, took_s);
@@ -321,7 +321,7 @@ impl Run<'_> {
                 }
                 Err(error) => return Err(error),
             }
-            used_up = self.look_at_disk()?;
+            used_up = self.look_when_due()?;
             took_s = Some(begun.elapsed().as_secs_f64());
             if !given_up {
                 self.checkpoint_when_due(simulation, false)?;
@@ -389,14 +389,19 @@ impl Run<'_> {
         self.save(checkpoint)
     }
 
-    /// What is wrong with the room on disk, where a run may take so much and no more.
+    /// Looks at the disk when a frame has been made and it is time to, where a run's files may take so much and no more.
+    fn look_when_due(&mut self) -> Result<Option<Error>> {
+        match self.disk.as_mut().is_some_and(DiskBudget::is_look_due) {
+            true => self.look_at_disk(),
+            false => Ok(None),
+        }
+    }
+
+    /// Why the run has to stop, where there is no more room.
     fn look_at_disk(&mut self) -> Result<Option<Error>> {
         let Some(disk) = &mut self.disk else {
             return Ok(None);
         };
-        if !disk.is_look_due() {
-            return Ok(None);
-        }
         for sink in &mut self.sinks {
             sink.flush()?;
         }

@@ -11,10 +11,9 @@ use crate::scene::Scene;
 use crate::scene::model::{FluidSolver, Wall};
 use crate::simulation::frame::{Frame, Statistics};
 
-/// Deepest overlap as a share of the radius: of grains that rotate and rub, of those with springs and dashpots alone, which
-/// are made to be soft, and where particles of heavy rigid bodies meet.
-const DEEPEST_OVERLAP: f64 = 0.5;
-const DEEPEST_SOFT_OVERLAP: f64 = 1.0;
+/// Deepest overlap of two grains, as a share of the radius: each has sunk by half a radius into the other; and where particles of
+/// rigid bodies meet, a few of which carry the weight of all.
+const DEEPEST_OVERLAP: f64 = 1.0;
 const DEEPEST_OVERLAP_OF_BODIES: f64 = 1.5;
 /// Largest |ρ/ρ₀ − 1|: a fluid of three times its density at rest, or less than none.
 const LARGEST_DENSITY_ERROR: f64 = 2.0;
@@ -249,10 +248,9 @@ fn not_finite(scene: &Scene, figures: &Statistics) -> Option<Story> {
 /// Grains that lie in one another, and fluid that is far denser than at rest. A start may be so; what follows may not.
 fn strained(scene: &Scene, frame: u32, figures: &Statistics) -> Option<Story> {
     let density = figures.density_error.map_or(0.0, |[_, most]| most);
-    let deepest = match scene.friction() {
-        _ if !scene.rigid_bodies.is_empty() => DEEPEST_OVERLAP_OF_BODIES,
-        Some(_) => DEEPEST_OVERLAP,
-        None => DEEPEST_SOFT_OVERLAP,
+    let deepest = match scene.rigid_bodies.is_empty() {
+        true => DEEPEST_OVERLAP,
+        false => DEEPEST_OVERLAP_OF_BODIES,
     };
     if frame > 0 && scene.grains().is_some() && figures.max_overlap > deepest {
         return Some((
