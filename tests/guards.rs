@@ -36,6 +36,24 @@ fn water() -> Value {
     })
 }
 
+/// An incompressible fluid that a piston presses into half of the room which it needs.
+fn squeezed() -> Value {
+    json!({
+        "dimensions": 2,
+        "domain": { "min": [0, 0], "max": [0.24, 0.2] },
+        "gravity": [0, -10],
+        "fluid": { "spacing": 0.02, "max_iterations": 5 },
+        "bodies": [{ "shape": { "kind": "box", "min": [0, 0], "max": [0.2, 0.2] } }],
+        "colliders": [{
+            "name": "piston",
+            "shape": { "kind": "box", "min": [0.2, 0], "max": [0.24, 0.2] },
+            "path": [{ "at": 0, "offset": [0, 0] }, { "at": 0.4, "offset": [-0.1, 0] }]
+        }],
+        "time": { "duration": 0.5, "fps": 50, "step": 1e-3 },
+        "render": { "size": [64, 64] },
+    })
+}
+
 fn with(mut scene: Value, changes: &[(&str, Value)]) -> Value {
     for (pointer, value) in changes {
         let (parent, key) = pointer.rsplit_once('/').expect("a pointer");
@@ -99,7 +117,7 @@ fn a_guard_leaves_a_post_mortem_that_replays() {
     assert_eq!(report["particle"]["id"], caught["id"]);
     assert!(caught["velocity_m_per_s"][1].as_f64().unwrap() < -1e4, "{caught}");
     let neighbors = report["neighbors"].as_array().unwrap();
-    assert!(!neighbors.is_empty() && neighbors.len() <= 8, "{neighbors:?}");
+    assert!(!neighbors.is_empty() && neighbors.len() <= 12, "{neighbors:?}");
     let center = &report["particle"]["position_m"];
     for neighbor in neighbors {
         let along =
@@ -109,7 +127,7 @@ fn a_guard_leaves_a_post_mortem_that_replays() {
             (distance - neighbor["distance_m"].as_f64().unwrap()).abs() < 1e-6,
             "{neighbor}"
         );
-        assert!(distance < 0.04, "{neighbor}");
+        assert!(distance < 0.06, "{neighbor}");
     }
 
     // The picture shows the particle in its middle, and neighbors beside it.
@@ -196,21 +214,7 @@ fn each_guard_fires_on_a_scene_made_for_it() {
             ),
             &[],
         ),
-        // Three iterations for an error that is asked to be next to nothing.
-        (
-            "unconverged",
-            with(
-                water(),
-                &[
-                    (
-                        "/fluid",
-                        json!({ "spacing": 0.02, "max_iterations": 3, "max_density_error": 1e-6 }),
-                    ),
-                    ("/time/step", json!(2e-4)),
-                ],
-            ),
-            &[],
-        ),
+        ("unconverged", squeezed(), &[]),
     ];
     for (guard, scene, more) in cases {
         let (told, report) = place.stopped(&scene, more);
@@ -301,7 +305,8 @@ fn a_retry_that_does_not_help_ends_with_a_post_mortem() {
 #[test]
 fn a_run_stops_before_its_files_take_too_much() {
     let place = Place::new();
-    place.told(&mut place.run("whole", &["--no-pictures"]), 0);
+    let plain = ["--no-pictures", "--set", "sensors=[]"];
+    place.told(&mut place.run("whole", &plain), 0);
     let bytes = |run: &str| -> u64 {
         let mut folders = vec![place.path(run)];
         let mut sum = 0;
@@ -320,8 +325,8 @@ fn a_run_stops_before_its_files_take_too_much() {
     let max = all * 4 / 5;
     // Checkpoints on the way would only make it stop earlier.
     let text = max.to_string();
-    let bound = ["--no-pictures", "--max-disk", &text, "--keep-checkpoints", "1"];
-    let told = place.told(&mut place.run("run", &bound), 1);
+    let bound = ["--max-disk", &text, "--keep-checkpoints", "1"];
+    let told = place.told(&mut place.run("run", &[&plain[..], &bound].concat()), 1);
     assert!(
         told.contains("the run stops at --max-disk") && told.contains("resume"),
         "{told}"
@@ -330,8 +335,7 @@ fn a_run_stops_before_its_files_take_too_much() {
     assert_eq!(manifest["status"], "interrupted");
     let done = manifest["frames_done"].as_u64().unwrap();
     assert!((2..u64::from(place::FRAMES)).contains(&done), "{done} frames");
-    // The record of the run is no frame of it, and grows with the message at its end.
-    assert!(bytes("run") <= max + 4096, "{} of {max}", bytes("run"));
+    assert!(bytes("run") <= max, "{} of {max}", bytes("run"));
 
     // With the same bound, nothing more fits; with a larger one, it comes to the bytes of a run without any.
     let told = place.told(&mut place.sliceflow(&["resume", "run"]), 1);

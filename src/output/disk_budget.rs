@@ -14,6 +14,10 @@ use crate::scene::Scene;
 
 /// Frames that are written behind the one after which a run is told to stop: those on their way from the device, and one more.
 const ON_THEIR_WAY: u64 = 5;
+/// What is written when a run ends: a chart of each quantity of its sensors, and its record once more.
+const CHART_BYTES: u64 = 80_000;
+const CHARTS_OF_A_SENSOR: u64 = 2;
+const RECORD_BYTES: u64 = 16_000;
 /// A look at the disk is due when so large a share of what is left may have been used.
 const LOOKS: u64 = 4;
 
@@ -24,6 +28,8 @@ pub struct DiskBudget {
     video: Option<PathBuf>,
     /// Bytes that all checkpoints of a run take together, with the one that is being written.
     checkpoints: u64,
+    /// Bytes that are written when it ends.
+    end: u64,
     /// Bytes of a frame's files, the most so far.
     each: u64,
     used: Option<u64>,
@@ -83,6 +89,7 @@ impl DiskBudget {
             folder: settings.folder.clone(),
             video: outputs.video.as_ref().map(|video| video.path().to_owned()),
             checkpoints: kept * checkpoint,
+            end: CHART_BYTES * CHARTS_OF_A_SENSOR * scene.sensors.list.len() as u64 + RECORD_BYTES,
             each: particles as u64,
             used: None,
             frames_since: 0,
@@ -121,7 +128,7 @@ impl DiskBudget {
         }
         self.used = Some(used);
         self.frames_since = 0;
-        let reserved = self.checkpoints.saturating_sub(saved);
+        let reserved = self.checkpoints.saturating_sub(saved) + self.end;
         let left = self.max.saturating_sub(used + reserved);
         if left < ON_THEIR_WAY * self.each || left == 0 {
             return Err(Error::Budget {
@@ -157,6 +164,7 @@ mod tests {
             folder: folder.path().to_owned(),
             video: None,
             checkpoints: 10_000,
+            end: 0,
             each: 0,
             used: None,
             frames_since: 0,

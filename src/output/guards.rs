@@ -17,9 +17,11 @@ const DEEPEST_OVERLAP: f64 = 1.0;
 const DEEPEST_OVERLAP_OF_BODIES: f64 = 1.5;
 /// Largest |ρ/ρ₀ − 1|: a fluid of three times its density at rest, or less than none.
 const LARGEST_DENSITY_ERROR: f64 = 2.0;
-/// Steps in a row of which each stopped at `fluid.max_iterations`, with an error so many times as large as asked for.
+/// Steps in a row of which each stopped at `fluid.max_iterations`, with so large an error, a mean share of the density, and so
+/// many times as large as asked for.
 const UNCONVERGED_STEPS: u32 = 300;
-const UNCONVERGED_ERROR: f64 = 20.0;
+const UNCONVERGED_ERROR: f64 = 0.01;
+const UNCONVERGED_TIMES: f64 = 20.0;
 /// Share of all particles that a search may find no slot for, on average over the searches of a frame.
 const LARGEST_OVERFLOW: f64 = 0.05;
 /// Energy that may come from nowhere, as a share of what there is to gain it from; where `dfsph` pushes particles apart that
@@ -89,14 +91,21 @@ impl Guards {
     /// A pressure solver that has given up step after step, far from what it looks for.
     fn unconverged(&mut self, scene: &Scene, convergence: &Convergence) -> Option<Story> {
         let fluid = scene.fluid()?;
-        let times = |error: f32, largest: f64| f64::from(error) / largest;
-        let [density, divergence] = [
-            times(convergence.density_error, fluid.max_density_error),
-            times(convergence.divergence_error, fluid.max_divergence_error),
-        ];
-        let all = |unconverged: u32| convergence.steps > 0 && unconverged == convergence.steps;
-        let is_far = all(convergence.density_unconverged) && density > UNCONVERGED_ERROR
-            || all(convergence.divergence_unconverged) && divergence > UNCONVERGED_ERROR;
+        let density = f64::from(convergence.density_error);
+        let divergence = f64::from(convergence.divergence_error);
+        let is_far = |unconverged: u32, error: f64, largest: f64| {
+            let is_all = convergence.steps > 0 && unconverged == convergence.steps;
+            is_all && error > UNCONVERGED_ERROR.max(UNCONVERGED_TIMES * largest)
+        };
+        let of_density = (convergence.density_unconverged, density, fluid.max_density_error);
+        let of_divergence = (
+            convergence.divergence_unconverged,
+            divergence,
+            fluid.max_divergence_error,
+        );
+        let is_far = [of_density, of_divergence]
+            .into_iter()
+            .any(|(unconverged, error, largest)| is_far(unconverged, error, largest));
         match is_far {
             true => self.unconverged += convergence.steps,
             false => self.unconverged = 0,
@@ -109,8 +118,9 @@ impl Guards {
                     count(self.unconverged.into())
                 ),
                 format!(
-                    "its errors are {density:.0} and {divergence:.0} times as large as asked for: the fluid is pressed into less \
-                     room than it needs, or steps are too long"
+                    "its errors of density and divergence are {density:.1e} and {divergence:.1e}, {:.1e} and {:.1e} are asked \
+                     for: the fluid is pressed into less room than it needs, or steps are too long",
+                    fluid.max_density_error, fluid.max_divergence_error
                 ),
                 "give the fluid more room, set time.step lower, or raise fluid.max_iterations".into(),
             )
@@ -277,11 +287,12 @@ fn strained(scene: &Scene, frame: u32, figures: &Statistics) -> Option<Story> {
 fn overflow(scene: &Scene, frame: &Frame) -> Option<Story> {
     let searches = f64::from(frame.searches.max(1));
     let each = frame.overflow as f64 / searches;
-    (each > LARGEST_OVERFLOW * f64::from(frame.particles)).then(|| {
+    let all = frame.particles + frame.boundary_particles;
+    (frame.index > 0 && each > LARGEST_OVERFLOW * f64::from(all)).then(|| {
         let slots = scene.neighbors.slots;
         (
             "overflow",
-            format!("a search finds no slot for {} of {} particles", each.round(), count(frame.particles.into())),
+            format!("a search finds no slot for {} of {} particles", each.round(), count(all.into())),
             format!("voxels of the pool have {slots} slots, and more particles stand in them: many contacts are missed"),
             "give voxels more room with --set neighbors.slots=8, or use --grid sliced-counting".into(),
         )
@@ -425,12 +436,11 @@ mod tests {
     #[test]
     fn a_solver_may_fail_now_and_then() {
         let scene = scene(FLUID);
-        let largest = scene.fluid().unwrap().max_density_error as f32;
         let with = |index: u32, unconverged: u32, error: f32| Frame {
             convergence: Some(Convergence {
                 steps: 100,
                 density_unconverged: unconverged,
-                density_error: error * largest,
+                density_error: error,
                 ..Convergence::default()
             }),
             ..frame(index, Statistics::default())
@@ -441,11 +451,11 @@ mod tests {
                 .collect()
         };
         assert_eq!(
-            stopped(&scene, row([(100, 50.0), (100, 50.0), (99, 50.0), (100, 50.0)])),
+            stopped(&scene, row([(100, 0.05), (100, 0.05), (99, 0.05), (100, 0.05)])),
             None
         );
-        assert_eq!(stopped(&scene, row([(100, 5.0); 4])), None);
-        let late = row([(0, 0.5), (100, 50.0), (100, 50.0), (100, 50.0)]);
+        assert_eq!(stopped(&scene, row([(100, 0.005); 4])), None);
+        let late = row([(0, 0.0), (100, 0.05), (100, 0.05), (100, 0.05)]);
         assert_eq!(stopped(&scene, late), Some("unconverged"));
     }
 }

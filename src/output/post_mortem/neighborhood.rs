@@ -10,6 +10,8 @@ use crate::simulation::State;
 
 /// At most so many neighbors are listed.
 const MOST_NEIGHBORS: usize = 64;
+/// Neighbors of grains lie within so many search radii: those that have just touched count too.
+const NEAR_GRAINS: f32 = 1.5;
 /// What is drawn lies within so many search radii.
 const SHOWN: f32 = 3.0;
 
@@ -53,7 +55,7 @@ pub struct Seen {
     pub(super) local: Vec3,
 }
 
-/// A neighbor within the search radius.
+/// A neighbor within the search radius; of grains, one and a half times as far.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Neighbor {
     /// Its id.
@@ -100,7 +102,11 @@ impl Neighborhood {
         let mut around: Vec<(usize, Vec3)> = columns.position.iter().map(way).enumerate().collect();
         around.retain(|(other, way)| *other != slot && way.length() <= SHOWN * radius);
         around.sort_by(|a, b| a.1.length().total_cmp(&b.1.length()));
-        let is_near = |way: &Vec3| way.length() < radius;
+        let near = match scene.grains() {
+            Some(_) => NEAR_GRAINS * radius,
+            None => radius,
+        };
+        let is_near = |way: &Vec3| way.length() < near;
         let neighbors = around
             .iter()
             .filter(|(_, way)| is_near(way))
