@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::estimate::{checkpoints, disk_bytes};
 use super::forecast::particles;
 use super::keeper::Every;
+use super::particles::ParticleOutput;
 use super::record::names;
 use super::run::Settings;
 use super::text::bytes;
@@ -46,9 +47,14 @@ impl DiskBudget {
         };
         let outputs = &settings.outputs;
         let walls = scene.boundary.len() as f64;
-        let files = outputs.particles.as_ref().map_or(0.0, |files| {
+        // What is compressed may become small.
+        let is_plain = |files: &&ParticleOutput| files.formats.iter().all(|format| format.name != "bgeo");
+        // Files of a 2D scene may have vectors of two numbers.
+        let share = scene.dimensions.count() as f64 / 3.0;
+        let files = outputs.particles.as_ref().filter(is_plain).map_or(0.0, |files| {
             let all = particles(scene).into_iter().step_by(files.every as usize);
-            all.map(|count| files.frame_bytes(1) * (count - walls)).sum()
+            all.map(|count| share * files.frame_bytes(1) * (count - walls))
+                .sum::<f64>()
         });
         let (count, checkpoint) = checkpoints(scene, outputs);
         let certain = files as u64 + if count > 0 { checkpoint } else { 0 };
@@ -142,7 +148,11 @@ impl DiskBudget {
                     .into(),
             });
         }
-        self.frames_until = (left / (LOOKS * ON_THEIR_WAY * self.each.max(1))).clamp(1, 1000);
+        // What a frame takes is known from the second look on.
+        self.frames_until = match self.each {
+            0 => 1,
+            each => (left / (LOOKS * ON_THEIR_WAY * each)).clamp(1, 1000),
+        };
         Ok(())
     }
 }
