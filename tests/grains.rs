@@ -301,6 +301,22 @@ fn the_guard_names_what_was_lost() {
 }
 
 #[test]
+fn the_guard_names_what_single_precision_no_longer_resolves() {
+    let mut scene = common::open_scene(2, &[], vec![Vec3::ZERO], vec![Vec3::ZERO]);
+    let radius = scene.radius() as f32;
+    scene.particles.position[0].x = (16_777_216.0 - 4.0) * radius;
+    scene.particles.velocity[0].x = 1.5 * radius / scene.time.step as f32;
+    let error = run(&scene, 1).expect_err("beyond the edge").to_string();
+    assert!(error.contains("its coordinates no longer resolve it"), "{error}");
+
+    // Where grains meet, they would pass through each other.
+    scene.particles.position[0].x = 0.0;
+    scene.particles.velocity[0].x = 2.5 * radius / scene.time.step as f32;
+    let error = run(&scene, 1).expect_err("too fast").to_string();
+    assert!(error.contains("farther than its diameter"), "{error}");
+}
+
+#[test]
 fn grains_rest_on_every_kind_of_obstacle() {
     for dimensions in [2, 3] {
         let scene = common::scene(

@@ -176,3 +176,100 @@ impl<'a> Again<'a> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::output::checkpoint::About;
+    use crate::simulation::State;
+
+    const SCENE: &str = r#"{
+        "dimensions": 2,
+        "domain": { "min": [0, 0], "max": [1, 1] },
+        "fluid": { "solver": "wcsph", "spacing": 0.1, "max_speed": 1 },
+        "bodies": [{ "shape": { "kind": "box", "min": [0, 0], "max": [0.5, 0.5] } }]
+    }"#;
+
+    fn scene(overrides: &[&str]) -> Scene {
+        let overrides: Vec<String> = overrides.iter().map(|&one| one.to_owned()).collect();
+        crate::scene::load::parse(SCENE, "test.json", Path::new("."), &overrides).unwrap()
+    }
+
+    #[test]
+    fn steps_are_halved_and_frames_stay() {
+        for overrides in [&[][..], &["time.adaptive=true"]] {
+            let whole = scene(overrides);
+            let short = halved(&whole, 2);
+            let frame = |scene: &Scene| scene.time.step * f64::from(scene.time.steps_per_frame);
+            assert_eq!(short.time.steps_per_frame, 4 * whole.time.steps_per_frame);
+            assert!((frame(&short) - frame(&whole)).abs() < 1e-12);
+            assert_eq!(short.time.frames, whole.time.frames);
+            let Some((short, whole)) = short.time.adaptive.zip(whole.time.adaptive) else {
+                assert!(overrides.is_empty());
+                continue;
+            };
+            // By speed and by acceleration.
+            assert_eq!(short.courant_distance, whole.courant_distance / 4.0);
+            assert_eq!(short.fall.sqrt(), whole.fall.sqrt() / 4.0);
+            assert_eq!(
+                (short.constant.0, short.expected),
+                (whole.constant.0 / 4.0, whole.expected / 4.0)
+            );
+        }
+    }
+
+    #[test]
+    fn an_adaptive_step_is_shortened_once() {
+        let control = StepControl {
+            wanted: 0.8,
+            ..StepControl::default()
+        };
+        let mut checkpoint = Checkpoint {
+            about: About {
+                run_id: String::new(),
+                version: String::new(),
+                adapter: String::new(),
+                particle_steps: 0,
+                health: Default::default(),
+                guards: Default::default(),
+                halvings: 1,
+            },
+            state: State {
+                frame: 3,
+                particles: 0,
+                dimensions: crate::scene::Dimensions::Two,
+                origin: glam::DVec3::ZERO,
+                lists_left_out: None,
+                buffers: vec![("step_control".into(), bytemuck::bytes_of(&control).to_vec())],
+            },
+        };
+        for halvings in [3, 3] {
+            shorten(&mut checkpoint, halvings);
+            let bytes = checkpoint.state.buffer("step_control").unwrap();
+            let found: StepControl = bytemuck::pod_read_unaligned(bytes);
+            assert_eq!((found.wanted, checkpoint.about.halvings), (0.2, 3));
+        }
+    }
+
+    #[test]
+    fn halvings_hold_behind_the_checkpoint_that_a_run_went_back_to() {
+        let retry = |from_frame: Option<u32>, halvings: u32| Retry {
+            from_frame,
+            guard: "energy".into(),
+            message: String::new(),
+            frame: 9,
+            step: 90,
+            step_s: 1e-3,
+            halvings,
+        };
+        let retries = [retry(None, 1), retry(Some(4), 2), retry(Some(8), 3)];
+        let behind = |frame: Option<u32>| halvings(&retries, frame);
+        assert_eq!(
+            [None, Some(3), Some(4), Some(7), Some(8)].map(behind),
+            [1, 1, 2, 2, 3]
+        );
+        assert_eq!(halvings(&[], Some(5)), 0);
+    }
+}
