@@ -19,8 +19,8 @@ const ON_THEIR_WAY: u64 = 5;
 const CHART_BYTES: u64 = 80_000;
 const CHARTS_OF_A_SENSOR: u64 = 2;
 const RECORD_BYTES: u64 = 16_000;
-/// A look at the disk is due when so large a share of what is left may have been used.
-const LOOKS: u64 = 4;
+/// A look at the disk is due when what is left may have become so many times less.
+const LOOKS: u64 = 2;
 
 /// Looks at the disk now and then, more often the less is left.
 pub struct DiskBudget {
@@ -151,7 +151,7 @@ impl DiskBudget {
         // What a frame takes is known from the second look on.
         self.frames_until = match self.each {
             0 => 1,
-            each => (left / (LOOKS * ON_THEIR_WAY * each)).clamp(1, 1000),
+            each => ((left - ON_THEIR_WAY * each) / (LOOKS * each)).clamp(1, 1000),
         };
         Ok(())
     }
@@ -195,6 +195,6 @@ mod tests {
         let stopped = stopped.expect("it stops");
         assert!((80..=86).contains(&stopped), "{stopped}");
         assert!(written + 10_000 + 5 * 1000 <= 101_000, "{written}");
-        assert!(looks.len() < 40, "{looks:?}");
+        assert!(looks.len() < 20, "{looks:?}");
     }
 }

@@ -47,7 +47,7 @@ pub(super) struct Launch<'a> {
     pub wall_s: f64,
     /// When the run went back with half the step.
     pub retries: Vec<Retry>,
-    /// Whether a guard stops it for good.
+    /// Whether a guard stops it for good, also where smaller steps may help.
     pub is_last_attempt: bool,
 }
 
@@ -214,7 +214,9 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
     // Sinks are finished in any case: frames before a failure stay.
     let outcome = run.finish_sinks(simulated);
     drop(simulation);
-    if let (true, Err(Error::Guard(violation))) = (is_last_attempt, &outcome) {
+    if let Err(Error::Guard(violation)) = &outcome
+        && (is_last_attempt || !violation.may_come_of_steps())
+    {
         run.examine(violation, &plan, settings, first);
     }
     run.tell_end(&outcome);

@@ -1,6 +1,7 @@
 //! Runs that a guard stops, and that go back to the last good checkpoint with a smaller step where the user wants that.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -26,7 +27,7 @@ pub enum OnInstability {
     /// It ends, with a post-mortem folder.
     #[default]
     Stop,
-    /// It goes back to the last good checkpoint with half the step, five times at most
+    /// It goes back to the last good checkpoint with half the step, five times at most.
     Retry,
 }
 
@@ -94,7 +95,7 @@ pub(super) fn drive(mut launch: Launch) -> Result<()> {
         launch.is_last_attempt = !may_retry || made >= MOST_HALVINGS;
         match drive::drive(launch) {
             Err(Error::Guard(violation)) if again.is_of_use(may_retry, made, &violation) => {
-                launch = again.launch(made + 1, &violation)?;
+                launch = again.launch(made + 1, violation)?;
             }
             outcome => return outcome,
         }
@@ -109,6 +110,7 @@ struct Again<'a> {
     configuration: Configuration,
     retries: Vec<Retry>,
     wall_s: f64,
+    begun: Instant,
 }
 
 impl<'a> Again<'a> {
@@ -120,6 +122,7 @@ impl<'a> Again<'a> {
             configuration: launch.configuration.clone(),
             retries: launch.retries.clone(),
             wall_s: launch.wall_s,
+            begun: Instant::now(),
         }
     }
 
@@ -129,7 +132,7 @@ impl<'a> Again<'a> {
     }
 
     /// The run once more, from its newest checkpoint on.
-    fn launch(mut self, halvings: u32, violation: &Violation) -> Result<Launch<'a>> {
+    fn launch(mut self, halvings: u32, violation: Box<Violation>) -> Result<Launch<'a>> {
         let progress = Progress::new(self.settings.progress, self.scene.time.frames);
         progress.warn(&violation.to_string());
         let found = newest(
@@ -139,6 +142,11 @@ impl<'a> Again<'a> {
             u32::MAX,
             &progress,
         )?;
+        let is_variant = self.configuration.variant_of.is_some();
+        if found.is_none() && is_variant {
+            // Its beginning is a state of another run, which this launch does not have any more.
+            return Err(Error::Guard(violation));
+        }
         let from_frame = found.as_ref().map(|checkpoint| checkpoint.state.frame);
         self.retries.push(Retry {
             from_frame,
@@ -161,7 +169,6 @@ impl<'a> Again<'a> {
             None => Start::Again,
         };
         let next = start.state().map_or(0, |state| state.frame + 1);
-        let is_variant = self.configuration.variant_of.is_some();
         let settings = part_from(&self.settings, next, is_variant, &self.configuration, &progress);
         Ok(Launch {
             scene: self.scene,
@@ -170,7 +177,7 @@ impl<'a> Again<'a> {
             progress,
             configuration: self.configuration,
             start,
-            wall_s: self.wall_s,
+            wall_s: self.wall_s + self.begun.elapsed().as_secs_f64(),
             retries: self.retries,
             is_last_attempt: false,
         })
