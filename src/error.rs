@@ -35,14 +35,32 @@ impl fmt::Display for Problem {
     }
 }
 
-/// The first particle that the device's guard caught, and when.
+/// What a guard found wrong in a run, and where.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Casualty {
+pub struct Violation {
+    /// Which guard that was, in one word: `not_finite`, `energy`, ….
+    pub guard: &'static str,
+    /// The first frame behind it, which is not written.
     pub frame: u32,
     /// Steps since the run began.
     pub step: u64,
     /// Seconds of simulated time.
     pub time: f64,
+    /// Length of the steps there, seconds.
+    pub step_s: f64,
+    /// What limited that length.
+    pub step_limited_by: &'static str,
+    /// The particle that went wrong, where the guard watches particles one by one.
+    pub particle: Option<Caught>,
+    pub what: String,
+    pub likely_cause: String,
+    /// What to change.
+    pub help: String,
+}
+
+/// The first particle that the device's guard caught.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Caught {
     pub id: u32,
     /// Metres, in the scene's own coordinates.
     pub position: [f64; 3],
@@ -50,8 +68,6 @@ pub struct Casualty {
     pub velocity: [f32; 3],
     /// Particles caught by the time the host looked.
     pub count: u32,
-    pub what: String,
-    pub likely_cause: String,
 }
 
 #[derive(Debug)]
@@ -71,8 +87,10 @@ pub enum Error {
     Limit { what: String, help: String },
     /// A shader does not compile: a defect of Sliceflow, reported with the author's file and line.
     Shader { message: String },
-    /// The simulation became non-finite or lost a particle.
-    Guard(Box<Casualty>),
+    /// A guard stopped the simulation: it blew up, or soon would have.
+    Guard(Box<Violation>),
+    /// A run has used up what it may write, and can go on where it may write more.
+    Budget { what: String, help: String },
     /// The command line asks for something that cannot be done.
     Usage { what: String, help: String },
     /// Two runs that were compared differ.
@@ -163,29 +181,54 @@ impl fmt::Display for Error {
             } => {
                 write!(f, "cannot {doing} {}: {reason}\n  help: {help}", path.display())
             }
-            Self::Device { what, help } | Self::Limit { what, help } | Self::Usage { what, help } => {
+            Self::Device { what, help }
+            | Self::Limit { what, help }
+            | Self::Budget { what, help }
+            | Self::Usage { what, help } => {
                 write!(f, "{what}\n  help: {help}")
             }
             Self::Shader { message } => write!(
                 f,
                 "a shader of Sliceflow does not compile; this is a defect, please report it\n{message}"
             ),
-            Self::Guard(c) => {
-                let [x, y, z] = c.position;
-                let [u, v, w] = c.velocity;
-                write!(
-                    f,
-                    "{} at frame {}, step {}, t = {:.6} s: particle {} at ({x:.6}, {y:.6}, {z:.6}) m \
-                     with velocity ({u:.4}, {v:.4}, {w:.4}) m/s; {} such accidents until the frame ended\n  \
-                     likely cause: {}\n  what was written before stays",
-                    c.what, c.frame, c.step, c.time, c.id, c.count, c.likely_cause
-                )
-            }
+            Self::Guard(violation) => violation.fmt(f),
             Self::Different => write!(f, "the runs differ"),
             Self::Incomparable(reason) => reason.fmt(f),
             Self::Interrupted { kept } if kept.is_empty() => write!(f, "interrupted"),
             Self::Interrupted { kept } => write!(f, "interrupted; {kept}"),
         }
+    }
+}
+
+impl Violation {
+    /// Whether smaller steps may help.
+    pub fn may_come_of_steps(&self) -> bool {
+        !["overflow", "edge"].contains(&self.guard)
+    }
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} at frame {}, step {}, t = {:.6} s",
+            self.what, self.frame, self.step, self.time
+        )?;
+        if let Some(caught) = &self.particle {
+            let [x, y, z] = caught.position;
+            let [u, v, w] = caught.velocity;
+            write!(
+                f,
+                ": particle {} at ({x:.6}, {y:.6}, {z:.6}) m with velocity ({u:.4}, {v:.4}, {w:.4}) m/s; {} such \
+                 accidents until the frame ended",
+                caught.id, caught.count
+            )?;
+        }
+        write!(
+            f,
+            "\n  likely cause: {}\n  help: {}\n  what was written before stays",
+            self.likely_cause, self.help
+        )
     }
 }
 

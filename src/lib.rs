@@ -39,7 +39,9 @@
 //! - `src/simulation/`: executes a plan: steps, frames, what comes back. Grids that need more room get it
 //!   (`src/simulation/reallocation.rs`); steps with lists are recorded in rounds (`src/simulation/rounds.rs`).
 //! - `src/output/`: sinks, each fed by bounded threads, and the run that drives them (`src/output/drive.rs`); its
-//!   checkpoints, and how it goes on from them (`src/output/resume.rs`); which files of a folder are a run's own
+//!   checkpoints, and how it goes on from them (`src/output/resume.rs`); guards that look at frames (`src/output/guards.rs`; those
+//!   that look at particles are in `shaders/physics/guard.wgsl`), what a run leaves that one of them stops
+//!   (`src/output/post_mortem/`), and how it tries again (`src/output/retry.rs`); which files of a folder are a run's own
 //!   (`src/output/record.rs`); recordings for the Rerun viewer
 //!   (`src/output/rerun.rs`). Meshes around a run's particles (`src/output/surface/`), and runs as USD (`src/output/usd/`).
 //!   What sensors found, as tables and charts (`src/output/sensors.rs`), also afterwards from

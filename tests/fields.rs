@@ -5,7 +5,8 @@ mod common;
 use common::frames;
 use sliceflow::gpu::{AdapterChoice, readback};
 use sliceflow::output::{
-    Checkpoints, Every, Outputs, PARTICLE_FORMATS, ParticleOutput, Settings, columns_named, progress, run,
+    Checkpoints, Every, OnInstability, Outputs, PARTICLE_FORMATS, ParticleOutput, Settings, columns_named,
+    progress, run,
 };
 use sliceflow::plan::Wanted;
 use sliceflow::scene::Scene;
@@ -126,6 +127,8 @@ fn it_is_exported() {
             },
             timings: false,
             adapter: AdapterChoice::Best,
+            on_instability: OnInstability::Stop,
+            max_disk: None,
             progress: progress::Style::None,
             command_line: Vec::new(),
         };

@@ -287,16 +287,33 @@ fn the_guard_names_what_was_lost() {
     let mut scene = collision(&[], 0.0);
     scene.particles.velocity[1] = Vec3::new(0.0, 4.0e4, 0.0);
     let error = run(&scene, 1).expect_err("a lost grain");
-    let Error::Guard(casualty) = &error else {
+    let Error::Guard(violation) = &error else {
         panic!("{error}")
     };
-    assert_eq!((casualty.id, casualty.frame), (1, 1));
-    assert!(casualty.velocity[1] > 3.9e4);
+    let caught = violation.particle.as_ref().expect("a particle");
+    assert_eq!((caught.id, violation.frame), (1, 1));
+    assert!(caught.velocity[1] > 3.9e4);
     assert!(error.to_string().contains("left the domain"), "{error}");
 
     scene.particles.velocity[1] = Vec3::new(0.0, f32::NAN, 0.0);
     let error = run(&scene, 1).expect_err("a NaN");
     assert!(error.to_string().contains("not a finite number"), "{error}");
+}
+
+#[test]
+fn the_guard_names_what_single_precision_no_longer_resolves() {
+    let mut scene = common::open_scene(2, &[], vec![Vec3::ZERO], vec![Vec3::ZERO]);
+    let radius = scene.radius() as f32;
+    scene.particles.position[0].x = (16_777_216.0 - 4.0) * radius;
+    scene.particles.velocity[0].x = 1.5 * radius / scene.time.step as f32;
+    let error = run(&scene, 1).expect_err("beyond the edge").to_string();
+    assert!(error.contains("its coordinates no longer resolve it"), "{error}");
+
+    // Where grains meet, they would pass through each other.
+    scene.particles.position[0].x = 0.0;
+    scene.particles.velocity[0].x = 2.5 * radius / scene.time.step as f32;
+    let error = run(&scene, 1).expect_err("too fast").to_string();
+    assert!(error.contains("farther than its diameter"), "{error}");
 }
 
 #[test]

@@ -41,7 +41,7 @@ fn watch(slot: u32, before: Vector, moved: ptr<function, Vector>, velocity: ptr<
     }
     if atomicAdd(&guard.count, 1u) == 0u {
         guard.id = slot;
-        guard.kind = select(select(GUARD_LOST, GUARD_RAN_AWAY, !flows), GUARD_NOT_FINITE, !finite);
+        guard.kind = select(select(GUARD_RAN_AWAY, GUARD_LOST, !within), GUARD_NOT_FINITE, !finite);
         guard.position = vec4f(to_3d(before), 0.0);
         guard.velocity = vec4f(to_3d(*velocity), 0.0);
     }

@@ -10,6 +10,7 @@ mod device_args;
 mod devices;
 mod diff;
 mod grid;
+mod guard_args;
 mod import;
 mod inspect;
 mod look_args;

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::checkpoint_args::CheckpointArgs;
+use super::guard_args::GuardArgs;
 use super::run;
 use super::scene_args::duration;
 use super::sitting_args::{SittingArgs, beside};
@@ -38,6 +39,8 @@ pub struct Args {
     #[command(flatten)]
     checkpoints: CheckpointArgs,
     #[command(flatten)]
+    guard: GuardArgs,
+    #[command(flatten)]
     sitting: SittingArgs,
 }
 
@@ -50,7 +53,7 @@ Examples:
 pub fn main(args: &Args) -> Result<()> {
     let recorded = Recorded::read(&args.run)?;
     let configuration = recorded.configuration()?;
-    let (mut outputs, timings) = run::recorded(&configuration.arguments)?;
+    let (mut outputs, guard, timings) = run::recorded(&configuration.arguments)?;
     outputs.checkpoints = args.checkpoints.or(outputs.checkpoints);
     let mut overrides = args.set.clone();
     if let Some(frames) = args.frames {
@@ -63,6 +66,7 @@ pub fn main(args: &Args) -> Result<()> {
         (None, None) => args.run.clone(),
     };
     let settings = args.sitting.settings(folder, args.force, outputs, timings)?;
+    let settings = args.guard.or(guard).put(settings);
     match args.branch_at {
         Some(frame) => output::branch(&recorded, frame, &overrides, &settings),
         None => output::resume(&recorded, &overrides, &settings),

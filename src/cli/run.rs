@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::guard_args::GuardArgs;
 use super::run_args::RunArgs;
 use super::sitting_args::SittingArgs;
 use super::{plan, stdout};
@@ -24,6 +25,8 @@ pub struct Args {
     /// Replaces an earlier run in that folder
     #[arg(long)]
     force: bool,
+    #[command(flatten)]
+    guard: GuardArgs,
     #[command(flatten)]
     sitting: SittingArgs,
     /// Times every pass on the device
@@ -57,11 +60,11 @@ pub fn main(args: &Args) -> Result<()> {
         .clone()
         .unwrap_or_else(|| PathBuf::from("out").join(file_name(&scene.name)));
     let settings = args.sitting.settings(folder, args.force, outputs, args.timings)?;
-    output::run(&scene, &settings)
+    output::run(&scene, &args.guard.put(settings))
 }
 
-/// What a recorded `sliceflow run` writes, and whether it times passes.
-pub fn recorded(command_line: &[String]) -> Result<(Outputs, bool)> {
+/// What a recorded `sliceflow run` writes, what stops it, and whether it times passes.
+pub fn recorded(command_line: &[String]) -> Result<(Outputs, GuardArgs, bool)> {
     let args = super::run_args(command_line).ok_or_else(|| {
         Error::usage(
             format!(
@@ -71,7 +74,7 @@ pub fn recorded(command_line: &[String]) -> Result<(Outputs, bool)> {
             "start a new run",
         )
     })?;
-    Ok((args.run.outputs()?, args.timings))
+    Ok((args.run.outputs()?, args.guard, args.timings))
 }
 
 /// A scene's name as the name of a folder anywhere.

@@ -31,7 +31,7 @@ pub struct RunArgs {
     /// Draws no pictures
     #[arg(long)]
     no_pictures: bool,
-    /// Writes no statistics; the warning about overlapping grains needs them
+    /// Writes no statistics; guards of energy, overlap and density need them
     #[arg(long)]
     no_statistics: bool,
     #[command(flatten)]

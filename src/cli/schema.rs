@@ -28,6 +28,8 @@ enum Of {
     Stats,
     /// run.json
     Run,
+    /// post_mortem/report.json
+    PostMortem,
 }
 
 const EXAMPLES: &str = "\
@@ -46,6 +48,7 @@ pub fn main(args: &Args) -> Result<()> {
         Of::Scene => load::schema(),
         Of::Stats => output::statistics_schema(),
         Of::Run => output::manifest_schema(),
+        Of::PostMortem => output::post_mortem_schema(),
     };
     let Some(typed) = &args.key else {
         return stdout::print_json(&schema);
@@ -147,6 +150,7 @@ fn unknown(typed: &str, of: Of, keys: &[Key]) -> Error {
         Of::Scene => "scenes",
         Of::Stats => "stats.jsonl",
         Of::Run => "run.json",
+        Of::PostMortem => "post_mortem/report.json",
     };
     let what = format!("no key of {whose} is called `{typed}`");
     if near.is_empty()

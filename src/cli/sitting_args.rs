@@ -7,7 +7,7 @@ use super::device_args::DeviceArgs;
 use super::quiet_args::QuietArgs;
 use crate::error::{Error, Result};
 use crate::gpu::AdapterChoice;
-use crate::output::{Outputs, Settings, progress};
+use crate::output::{OnInstability, Outputs, Settings, progress};
 
 #[derive(clap::Args)]
 pub struct SittingArgs {
@@ -38,6 +38,8 @@ impl SittingArgs {
             outputs,
             timings,
             adapter: self.adapter(),
+            on_instability: OnInstability::default(),
+            max_disk: None,
             progress: self.quiet.style(self.progress),
             command_line: command_line()?,
         })

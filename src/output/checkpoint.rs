@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::disk;
+use super::guards::Guards;
 use super::health::Health;
 use crate::error::Result;
 use crate::files;
@@ -37,6 +38,12 @@ pub struct About {
     /// Particles times steps of the run so far.
     pub particle_steps: u64,
     pub health: Health,
+    /// What guards remember.
+    #[serde(default)]
+    pub guards: Guards,
+    /// How often its steps had been halved by then.
+    #[serde(default)]
+    pub halvings: u32,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -136,6 +143,8 @@ mod tests {
                 adapter: "none".into(),
                 particle_steps: 123_456_789_012,
                 health: Health::default(),
+                guards: Guards::default(),
+                halvings: 2,
             },
             state: State {
                 frame: 40,

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
+use super::retry::Retry;
 use crate::error::{Error, Result};
 use crate::files;
 use crate::scene::{Scene, library, load};
@@ -61,6 +62,9 @@ pub struct Recorded {
     pub configuration: Option<Configuration>,
     /// That other run.
     pub drawn_from: Option<PathBuf>,
+    /// When it went back with half the step.
+    #[serde(default)]
+    pub retries: Vec<Retry>,
 }
 
 impl Configuration {

@@ -1,28 +1,33 @@
 //! Drives a simulation: frames to the sinks, checkpoints between them.
 
-use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
 use super::checkpoint::{About, Checkpoint};
 use super::configuration::Configuration;
+use super::disk_budget::DiskBudget;
 use super::folder::Folder;
 use super::forecast::particles;
+use super::guards::Guards;
 use super::health::Health;
 use super::keeper::{Every, Keeper};
 use super::manifest::Manifest;
+use super::post_mortem::{self, Autopsy};
 use super::progress::Progress;
 use super::record::Record;
+use super::resume::{newest, reach};
+use super::retry::{Retry, halved, halvings, shorten};
 use super::run::{Settings, checkpoint_files};
 use super::stopping::Stopping;
 use super::tally::Tally;
-use super::text::{bytes, seconds, short};
+use super::text::{bytes, quoted, seconds, short};
 use super::{Sink, disk_bytes, interrupt};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Violation};
 use crate::gpu::device::describe;
 use crate::gpu::{Gpu, driver};
 use crate::plan::Plan;
 use crate::scene::Scene;
+use crate::scene::model::FluidSolver;
 use crate::simulation::frame::Frame;
 use crate::simulation::{Simulation, State};
 
@@ -33,13 +38,17 @@ const LONG_FRAME_S: f64 = 1.0;
 /// A run about to begin.
 pub(super) struct Launch<'a> {
     pub scene: &'a Scene,
-    pub settings: &'a Settings,
+    pub settings: Settings,
     pub folder: Arc<Folder>,
     pub progress: Progress,
     pub configuration: Configuration,
     pub start: Start,
     /// Seconds that earlier sittings took.
     pub wall_s: f64,
+    /// When the run went back with half the step.
+    pub retries: Vec<Retry>,
+    /// Whether a guard stops it for good, also where smaller steps may help.
+    pub is_last_attempt: bool,
 }
 
 /// Where a run begins.
@@ -71,9 +80,18 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         folder,
         mut progress,
         configuration,
-        start,
+        mut start,
         wall_s,
+        retries,
+        is_last_attempt,
     } = launch;
+    let settings = &settings;
+    let halvings = halvings(&retries, start.state().map(|state| state.frame));
+    let shorter = (halvings > 0).then(|| halved(scene, halvings));
+    let scene = shorter.as_ref().unwrap_or(scene);
+    if let Start::Behind(checkpoint) = &mut start {
+        shorten(checkpoint, halvings);
+    }
     let first = configuration.first_frame;
     let frames = first..=scene.time.frames - 1;
     let mut files = settings.outputs.files(scene);
@@ -91,6 +109,8 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         adapter: describe(&gpu.adapter),
         particle_steps: 0,
         health: Health::default(),
+        guards: Guards::default(),
+        halvings,
     };
     let plan = Plan::new(scene, &gpu.limits, &settings.outputs.wanted(scene))?;
     for note in scene.notes.iter().chain(&plan.notes) {
@@ -124,6 +144,7 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
     }
     let mut tally = Tally::start(scene.time.frames - first);
     let mut health = Health::default();
+    let mut guards = Guards::default();
     if let Some(state) = start.state() {
         tally = tally.resume(0, state.steps(), 0, wall_s);
     }
@@ -131,6 +152,7 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         let Checkpoint { about: was, state } = &**checkpoint;
         tally = tally.resume(state.frame + 1 - first, state.steps(), was.particle_steps, wall_s);
         health = was.health.clone();
+        guards = was.guards.clone();
         warn_of_other_machine(was, &about, &progress);
     }
     let pinned = configuration.variant_of.is_some().then_some(first);
@@ -148,6 +170,7 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         frames,
     );
     manifest.configuration = Some(configuration);
+    manifest.retries = retries;
     let stopping = Stopping::default();
     stopping.listen(&progress);
     // Before any other file: from here on a run that dies can be resumed.
@@ -174,6 +197,9 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         manifest,
         folder,
         health,
+        guards,
+        scene,
+        disk: DiskBudget::new(scene, settings),
         tally,
         stopping,
         held: None,
@@ -187,6 +213,12 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
     );
     // Sinks are finished in any case: frames before a failure stay.
     let outcome = run.finish_sinks(simulated);
+    drop(simulation);
+    if let Err(Error::Guard(violation)) = &outcome
+        && (is_last_attempt || !violation.may_come_of_steps())
+    {
+        run.examine(violation, &plan, settings, first);
+    }
     run.tell_end(&outcome);
     let closed = run.manifest.close(run.tally, &outcome);
     if outcome.is_ok() {
@@ -256,6 +288,9 @@ struct Run<'a> {
     manifest: Manifest<'a>,
     folder: Arc<Folder>,
     health: Health,
+    guards: Guards,
+    scene: &'a Scene,
+    disk: Option<DiskBudget>,
     tally: Tally,
     stopping: Stopping,
     /// The state behind the last frame, where that took long and is in no file yet.
@@ -274,15 +309,22 @@ impl Run<'_> {
             self.checkpoint_when_due(simulation, false)?;
         }
         let mut given_up = false;
+        let mut used_up = self.look_at_disk()?;
         let mut took_s = None;
-        while simulation.next_index() < frames && !given_up && !interrupt::asked() {
+        while simulation.next_index() < frames && !given_up && used_up.is_none() && !interrupt::asked() {
             self.prepare_to_stop(simulation, took_s);
             let begun = Instant::now();
             match simulation.next_frame() {
                 Ok(frame) => frame.map_or(Ok(()), |frame| self.take(frame))?,
                 Err(Error::Interrupted { .. }) => given_up = true,
+                Err(error @ Error::Guard(_)) => {
+                    // Frames before that are on their way, unless one of them has gone wrong already.
+                    self.receive_all(simulation)?;
+                    return Err(error);
+                }
                 Err(error) => return Err(error),
             }
+            used_up = self.look_when_due()?;
             took_s = Some(begun.elapsed().as_secs_f64());
             if !given_up {
                 self.checkpoint_when_due(simulation, false)?;
@@ -296,11 +338,13 @@ impl Run<'_> {
         self.stopping.files();
         self.receive_all(simulation)?;
         match self.held.take() {
+            _ if used_up.is_some() => self.checkpoint_in_any_case(simulation)?,
             _ if !given_up => self.checkpoint_when_due(simulation, true)?,
             Some(held) => self.save(held)?,
             None => {}
         }
         match self.tally.frames_done {
+            done if done < self.tally.frames && used_up.is_some() => used_up.map_or(Ok(()), Err),
             done if done < self.tally.frames => Err(Error::interrupted_after(done)),
             _ => Ok(()),
         }
@@ -338,6 +382,86 @@ impl Run<'_> {
         self.save(checkpoint)
     }
 
+    /// Writes a checkpoint behind the frame made last, whatever was asked for.
+    fn checkpoint_in_any_case(&mut self, simulation: &mut Simulation) -> Result<()> {
+        if self.keeper.last() == simulation.next_index().checked_sub(1) {
+            return Ok(());
+        }
+        self.manifest.add_files([checkpoint_files()]);
+        let checkpoint = self.checkpoint(simulation)?;
+        self.save(checkpoint)
+    }
+
+    /// Looks at the disk when a frame has been made and it is time to, where a run's files may take so much and no more.
+    fn look_when_due(&mut self) -> Result<Option<Error>> {
+        match self.disk.as_mut().is_some_and(DiskBudget::is_look_due) {
+            true => self.look_at_disk(),
+            false => Ok(None),
+        }
+    }
+
+    /// Why the run has to stop, where there is no more room.
+    fn look_at_disk(&mut self) -> Result<Option<Error>> {
+        let Some(disk) = &mut self.disk else {
+            return Ok(None);
+        };
+        for sink in &mut self.sinks {
+            sink.flush()?;
+        }
+        match disk.look() {
+            Ok(()) => Ok(None),
+            Err(error @ Error::Budget { .. }) => Ok(Some(error)),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Goes back to the last good frame of a run that a guard has stopped, keeps its state, and looks for the reason. That
+    /// this fails changes nothing about the run.
+    fn examine(&mut self, violation: &Violation, plan: &Plan, settings: &Settings, first: u32) {
+        let last_good = (first + self.tally.frames_done).checked_sub(1);
+        let last_good = last_good.filter(|_| self.tally.frames_done > 0);
+        let reached = last_good.map(|frame| self.go_back(frame, settings)).transpose();
+        let reached = reached.unwrap_or_else(|error| {
+            self.progress.warn(&format!(
+                "the post-mortem knows no neighbors, since the last good frame could not be reached again: {error}"
+            ));
+            None
+        });
+        self.manifest.add_files(post_mortem::files());
+        let autopsy = Autopsy {
+            scene: self.scene,
+            plan,
+            settings,
+            folder: &self.folder,
+            progress: &self.progress,
+            violation,
+            last_good: reached.as_ref(),
+        };
+        if let Err(error) = autopsy.write() {
+            self.progress.warn(&format!("there is no post-mortem: {error}"));
+        }
+    }
+
+    /// The state of a frame that was written, from which `resume` then goes on.
+    fn go_back(&mut self, frame: u32, settings: &Settings) -> Result<Checkpoint> {
+        let configuration = self.manifest.configuration.as_ref().expect("a run has one");
+        let mut scene = self.scene.clone();
+        let found = newest(self.folder.path(), configuration, &scene, frame, &self.progress)?;
+        let halvings = self.about.halvings;
+        let state = reach(&mut scene, found, frame, halvings, settings, &self.progress)?;
+        let checkpoint = Checkpoint {
+            about: self.about_now(),
+            state,
+        };
+        // Behind the first state alone, the run begins anew as well.
+        if frame > 0 && self.keeper.last() != Some(frame) {
+            self.manifest.add_files([checkpoint_files()]);
+            self.folder.save(self.keeper.unsaved(frame))?;
+            self.keeper.write(&checkpoint)?;
+        }
+        Ok(checkpoint)
+    }
+
     /// Holds the state behind the frame made last, if that was a `long` one without a checkpoint, and no other.
     fn hold(&mut self, simulation: &mut Simulation, long: bool) -> Result<()> {
         self.held = None;
@@ -352,13 +476,18 @@ impl Run<'_> {
     fn checkpoint(&mut self, simulation: &mut Simulation) -> Result<Checkpoint> {
         self.receive_all(simulation)?;
         Ok(Checkpoint {
-            about: About {
-                particle_steps: self.tally.particle_steps,
-                health: self.health.clone(),
-                ..self.about.clone()
-            },
+            about: self.about_now(),
             state: simulation.save_state()?,
         })
+    }
+
+    fn about_now(&self) -> About {
+        About {
+            particle_steps: self.tally.particle_steps,
+            health: self.health.clone(),
+            guards: self.guards.clone(),
+            ..self.about.clone()
+        }
     }
 
     /// Writes a checkpoint when all frames so far are safe on disk. That it cannot be written is no reason to stop.
@@ -378,6 +507,11 @@ impl Run<'_> {
     }
 
     fn take(&mut self, frame: Frame) -> Result<()> {
+        let mut guards = self.guards.clone();
+        if let Some(violation) = guards.check(self.scene, &frame) {
+            return Err(Error::Guard(Box::new(violation)));
+        }
+        self.guards = guards;
         let frame = Arc::new(frame);
         for sink in &mut self.sinks {
             sink.frame(&frame)?;
@@ -391,7 +525,12 @@ impl Run<'_> {
                 None => self.pass_ms.push((label.clone(), *ms)),
             }
         }
-        for warning in self.health.check(&frame) {
+        let compressible = self
+            .scene
+            .fluid()
+            .filter(|fluid| fluid.solver != FluidSolver::Dfsph);
+        let sound_speed = compressible.map(|fluid| fluid.sound_speed);
+        for warning in self.health.check(&frame, sound_speed) {
             self.progress.warn(&warning);
         }
         self.progress.frame(&frame, &self.tally);
@@ -447,7 +586,7 @@ impl Run<'_> {
         } else {
             format!("stopped after {frames} frames")
         };
-        // Where a grain was lost, going on would lose it again.
+        // Where a guard stopped it, going on would come to the same; the post-mortem says more.
         if matches!(outcome, Err(error) if !matches!(error, Error::Guard(_))) {
             self.progress.note(&format!(
                 "go on with `sliceflow resume {}`",
@@ -463,15 +602,5 @@ impl Run<'_> {
             ),
             &self.tally,
         );
-    }
-}
-
-/// A path as a shell takes it.
-fn quoted(path: &Path) -> String {
-    let text = path.display().to_string();
-    if text.chars().any(|c| !c.is_alphanumeric() && !"/._-".contains(c)) {
-        format!("'{}'", text.replace('\'', "'\\''"))
-    } else {
-        text
     }
 }

@@ -11,6 +11,9 @@ use super::{bodies, disk, sensors};
 use crate::error::{Error, Result};
 use crate::files;
 
+/// Where a run that a guard stopped leaves what helps to find the reason.
+pub const POST_MORTEM: &str = "post_mortem";
+
 /// A folder that exists and can be written, by nobody else as long as this lives.
 #[derive(Debug)]
 pub struct Folder {
@@ -23,7 +26,7 @@ pub struct Folder {
 struct Earlier {
     pictures: Vec<String>,
     particles: Vec<String>,
-    /// Folders of NumPy arrays.
+    /// Folders of NumPy arrays, and that of a post-mortem.
     arrays: BTreeSet<String>,
     surfaces: Vec<String>,
     checkpoints: Vec<String>,
@@ -193,6 +196,9 @@ impl Folder {
                 continue;
             }
             earlier.files.push(name.clone());
+            if name.starts_with("post_mortem/") {
+                earlier.arrays.insert(POST_MORTEM.into());
+            }
             let kind = match name.split(['_', '.']).next() {
                 _ if name.ends_with(".part") => continue,
                 Some("frame") => &mut earlier.pictures,

@@ -14,6 +14,8 @@ pub struct Health {
     overflow: u64,
     overlap_told: bool,
     quarantine_told: bool,
+    #[serde(default)]
+    sound_told: bool,
     reallocations: u32,
     /// Told in every sitting.
     #[serde(skip)]
@@ -21,8 +23,8 @@ pub struct Health {
 }
 
 impl Health {
-    /// Warnings that this frame is the first to deserve.
-    pub fn check(&mut self, frame: &Frame) -> Vec<String> {
+    /// Warnings that this frame is the first to deserve. `sound_speed` is that of a weakly compressible fluid, m/s.
+    pub fn check(&mut self, frame: &Frame, sound_speed: Option<f64>) -> Vec<String> {
         let mut warnings = Vec::new();
         if frame.overflow > 0 && self.overflow == 0 {
             warnings.push(format!(
@@ -54,6 +56,15 @@ impl Health {
                 "frame {}: grains overlap by {:.0} % of their radius; make grains stiffer (grains.spring, or grains.young_modulus)",
                 frame.index,
                 100.0 * overlap
+            ));
+        }
+        let speed = frame.statistics.map_or(0.0, |statistics| statistics.max_speed);
+        if let Some(sound) = sound_speed.filter(|sound| speed > *sound && !self.sound_told) {
+            self.sound_told = true;
+            warnings.push(format!(
+                "frame {}: fluid moves at {speed:.3} m/s, faster than sound in it, {sound:.3} m/s, so that its pressures are \
+                 wrong; raise fluid.max_speed",
+                frame.index
             ));
         }
         warnings
@@ -107,13 +118,24 @@ mod tests {
         let (well, mut ill) = (with(0.05, 0), with(0.3, 40));
         ill.lists_left_out = Some("no lists".into());
         let mut health = Health::default();
-        assert!(health.check(&well).is_empty());
+        assert!(health.check(&well, None).is_empty());
         assert_eq!(health.summary(), None);
-        let warnings = health.check(&ill);
+        let warnings = health.check(&ill, None);
         assert!(warnings[0].contains("40 times"), "{warnings:?}");
         assert!(warnings[1] == "frame 7: no lists", "{warnings:?}");
         assert!(warnings[2].contains("30 %"), "{warnings:?}");
-        assert!(health.check(&ill).is_empty());
+        assert!(health.check(&ill, None).is_empty());
         assert!(health.summary().unwrap().contains("80 times"));
+        let fast = Frame {
+            statistics: Some(Statistics {
+                max_speed: 11.0,
+                ..Default::default()
+            }),
+            ..frame
+        };
+        assert!(health.check(&fast, Some(12.0)).is_empty());
+        let warnings = health.check(&fast, Some(10.0));
+        assert!(warnings[0].contains("faster than sound in it"), "{warnings:?}");
+        assert!(health.check(&fast, Some(10.0)).is_empty());
     }
 }

@@ -224,6 +224,8 @@ mod tests {
                 adapter: String::new(),
                 particle_steps: 0,
                 health: Default::default(),
+                guards: Default::default(),
+                halvings: 0,
             };
             keeper.write(&Checkpoint { about, state }).unwrap();
         }

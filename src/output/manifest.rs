@@ -11,6 +11,7 @@ use sha2::{Digest, Sha256};
 
 use super::configuration::{Configuration, hex};
 use super::memory::peak_resident_bytes;
+use super::retry::Retry;
 use super::tally::Tally;
 use super::{clock, disk};
 use crate::error::{Error, Result};
@@ -43,6 +44,9 @@ pub struct Manifest<'a> {
     /// The most memory that the program took, bytes, since the run was started or resumed; null where the system does not
     /// say.
     pub peak_resident_bytes: Option<u64>,
+    /// When a guard stopped the run, and it went back with half the step (`--on-instability retry`).
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub retries: Vec<Retry>,
     /// Every kind of file that the run writes.
     pub files: Vec<Files>,
     /// Number of the first frame in the folder.
@@ -93,7 +97,7 @@ pub enum Status {
     Running,
     /// Every frame is there.
     Finished,
-    /// It was stopped by Ctrl-C; what was finished is on disk.
+    /// It was stopped by Ctrl-C or by `--max-disk`; what was finished is on disk.
     Interrupted,
     /// It ended with an error.
     Failed,
@@ -138,6 +142,7 @@ impl<'a> Manifest<'a> {
             finished: None,
             tally: Tally::start(scene.time.frames),
             peak_resident_bytes: None,
+            retries: Vec::new(),
             files,
             first_frame: *frames.start(),
             last_frame: *frames.end(),
@@ -167,6 +172,15 @@ impl<'a> Manifest<'a> {
         disk::write_durably(&self.path, &text)
     }
 
+    /// Names kinds of files that the run was not expected to write.
+    pub fn add_files(&mut self, files: impl IntoIterator<Item = Files>) {
+        for file in files {
+            if self.files.iter().all(|known| known.name != file.name) {
+                self.files.push(file);
+            }
+        }
+    }
+
     /// Writes how far the run has come.
     pub fn update(&mut self, tally: Tally) -> Result<()> {
         self.tally = tally;
@@ -180,6 +194,10 @@ impl<'a> Manifest<'a> {
         self.status = match outcome {
             Ok(()) => Status::Finished,
             Err(Error::Interrupted { .. }) => Status::Interrupted,
+            Err(error @ Error::Budget { .. }) => {
+                self.message = Some(error.to_string());
+                Status::Interrupted
+            }
             Err(error) => {
                 self.message = Some(error.to_string());
                 Status::Failed

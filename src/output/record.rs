@@ -8,7 +8,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::folder::numbered;
+use super::folder::{POST_MORTEM, numbered};
 use super::manifest::Files;
 use super::{bodies, disk, sensors};
 use crate::error::Result;
@@ -20,8 +20,9 @@ const NUMBER: &str = "NNNNNN";
 /// What frames' files begin with.
 const KINDS: [&str; 4] = ["frame_", "particles_", "checkpoint_", "surface_"];
 /// What other files of runs begin with.
-const OTHERS: [&str; 6] = [
+const OTHERS: [&str; 7] = [
     "run.json",
+    POST_MORTEM,
     "stats.jsonl",
     "particles.pvd",
     "sensor",
@@ -117,14 +118,14 @@ impl Record {
     }
 }
 
-/// Files in a run's folder, and in its folders of arrays: `run.json`, `particles_000007/id.npy`. Links are among them, and
+/// Files in a run's folder, in its folders of arrays and in that of a post-mortem: `run.json`, `particles_000007/id.npy`. Links are among them, and
 /// are not followed.
 pub fn names(folder: &Path) -> Result<Vec<String>> {
     let mut found = Vec::new();
     for (name, is_folder) in entries(folder)? {
         match is_folder {
             false => found.push(name),
-            true if numbered(&name, "particles_", "").is_some() => {
+            true if name == POST_MORTEM || numbered(&name, "particles_", "").is_some() => {
                 let inside = entries(&folder.join(&name))?.into_iter();
                 found.extend(inside.map(|(file, _)| format!("{name}/{file}")));
             }

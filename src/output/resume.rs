@@ -8,11 +8,12 @@ use serde_json::Value;
 
 use super::checkpoint::Checkpoint;
 use super::configuration::{Configuration, Recorded};
-use super::drive::{Launch, Start, drive};
+use super::drive::{Launch, Start};
 use super::folder::Folder;
 use super::interrupt;
 use super::progress::Progress;
 use super::rerun::Target;
+use super::retry::{self, Retry, halved, halvings, shorten};
 use super::rewind::checkpoints;
 use super::run::{Outputs, Settings};
 use super::stopping::Stopping;
@@ -75,7 +76,10 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
             Start::Again
         }
     };
-    let next = start.state().map_or(0, |state| state.frame + 1);
+    let behind = start.state().map(|state| state.frame);
+    let mut retries = recorded.retries.clone();
+    retries.retain(|retry| retry.from_frame <= behind);
+    let next = behind.map_or(0, |frame| frame + 1);
     let settings = part_from(
         settings,
         next,
@@ -88,14 +92,16 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
         video.check(true)?;
     }
     check_outside(&settings)?;
-    drive(Launch {
+    retry::drive(Launch {
         scene: &scene,
-        settings: &settings,
+        settings,
         folder,
         progress,
         configuration,
         start,
         wall_s: recorded.wall_s,
+        retries,
+        is_last_attempt: true,
     })
 }
 
@@ -106,7 +112,7 @@ pub fn branch(recorded: &Recorded, frame: u32, overrides: &[String], settings: &
     let mut scene = configuration.scene(overrides)?;
     check_variant(configuration, &old, &scene, frame)?;
     let progress = Progress::new(settings.progress, scene.time.frames);
-    let settings = &part_from(settings, frame, true, configuration, &progress);
+    let settings = part_from(settings, frame, true, configuration, &progress);
     if let Some(video) = &settings.outputs.video {
         video.check(settings.force)?;
     }
@@ -124,7 +130,19 @@ pub fn branch(recorded: &Recorded, frame: u32, overrides: &[String], settings: &
             "branch from the run that it is a variant of",
         ));
     }
-    let state = reach(&mut old, newest, frame, settings, &progress)?.with_origin(scene.origin);
+    let behind = newest.as_ref().map(|checkpoint| checkpoint.state.frame);
+    let halvings = halvings(&recorded.retries, behind);
+    old = halved(&old, halvings);
+    let state = reach(&mut old, newest, frame, halvings, &settings, &progress)?.with_origin(scene.origin);
+    // The variant keeps the steps of the run that it begins with.
+    let kept = recorded
+        .retries
+        .iter()
+        .filter(|retry| retry.from_frame <= Some(frame));
+    let retries = kept.map(|retry| Retry {
+        from_frame: None,
+        ..retry.clone()
+    });
     scene.capacity = state.capacity(&scene);
     let variant = Configuration::new(&scene, &configuration.arguments)?;
     let from = std::path::absolute(&recorded.folder).unwrap_or_else(|_| recorded.folder.clone());
@@ -132,7 +150,7 @@ pub fn branch(recorded: &Recorded, frame: u32, overrides: &[String], settings: &
         "a variant of {} from frame {frame} on",
         recorded.folder.display()
     ));
-    drive(Launch {
+    retry::drive(Launch {
         scene: &scene,
         settings,
         folder,
@@ -145,12 +163,14 @@ pub fn branch(recorded: &Recorded, frame: u32, overrides: &[String], settings: &
         },
         start: Start::With(Box::new(state)),
         wall_s: 0.0,
+        retries: retries.collect(),
+        is_last_attempt: true,
     })
 }
 
 /// Settings for a run that begins with frame `first`: what cannot be appended to gets another name, which is told. A
 /// variant keeps all its files in its own folder.
-fn part_from(
+pub(super) fn part_from(
     settings: &Settings,
     first: u32,
     is_variant: bool,
@@ -301,7 +321,7 @@ fn overruled(old: &Scene, scene: &Scene, frame: u32) -> Vec<String> {
 }
 
 /// The newest whole checkpoint of a run at or before a frame; what is wrong with newer ones is told.
-fn newest(
+pub(super) fn newest(
     folder: &Path,
     configuration: &Configuration,
     scene: &Scene,
@@ -328,15 +348,22 @@ fn newest(
     Ok(None)
 }
 
-/// The state of a run at a frame: that of a checkpoint, or simulated from there without writing anything.
-fn reach(
+/// The state of a run at a frame: that of a checkpoint, or simulated from there without writing anything, with steps that have
+/// been halved so often.
+pub(super) fn reach(
     scene: &mut Scene,
     from: Option<Checkpoint>,
     frame: u32,
+    halvings: u32,
     settings: &Settings,
     progress: &Progress,
 ) -> Result<State> {
-    let state = from.map(|checkpoint| checkpoint.state);
+    let state = from.map(|mut checkpoint| {
+        if checkpoint.state.frame != frame {
+            shorten(&mut checkpoint, halvings);
+        }
+        checkpoint.state
+    });
     if let Some(state) = &state {
         if state.frame == frame {
             return Ok(state.clone());

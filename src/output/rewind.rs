@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::disk;
-use super::folder::Folder;
+use super::folder::{Folder, POST_MORTEM};
 use super::record::{Record, frame_of, names};
 use super::text::count;
 use crate::error::Result;
@@ -39,6 +39,11 @@ impl Folder {
         let record = Record::read(self.path());
         let (mut removed, mut folders) = (BTreeSet::new(), BTreeSet::new());
         for name in names(self.path())? {
+            if name.starts_with("post_mortem/") && record.has(&name) {
+                self.remove(&name)?;
+                folders.insert(POST_MORTEM.to_owned());
+                continue;
+            }
             let Some(frame) = frame_of(&name).filter(|_| record.has(&name)) else {
                 continue;
             };

@@ -5,13 +5,15 @@ use std::sync::Arc;
 
 use super::bodies::{self, BodyFile};
 use super::configuration::Configuration;
-use super::drive::{Launch, Start, drive};
+use super::disk_budget::DiskBudget;
+use super::drive::{Launch, Start};
 use super::folder::Folder;
 use super::keeper::{Checkpoints, Every};
 use super::manifest::Files;
 use super::particles::{ParticleFiles, ParticleOutput};
 use super::png::Pictures;
 use super::progress::{self, Progress};
+use super::retry::{self, OnInstability};
 use super::sensors::{self, SensorFiles};
 use super::statistics::StatisticsFile;
 use super::video::{Video, VideoOutput};
@@ -166,6 +168,10 @@ pub struct Settings {
     /// Milliseconds of each pass, in the statistics and at the end.
     pub timings: bool,
     pub adapter: AdapterChoice,
+    /// What happens where a guard stops the run.
+    pub on_instability: OnInstability,
+    /// Bytes that the run's files may take.
+    pub max_disk: Option<u64>,
     pub progress: progress::Style,
     /// For the manifest.
     pub command_line: Vec<String>,
@@ -179,16 +185,22 @@ pub fn run(scene: &Scene, settings: &Settings) -> Result<()> {
     if let Some(video) = &settings.outputs.video {
         video.check(settings.force)?;
     }
+    let too_much = DiskBudget::check(scene, settings)?;
     let folder = Arc::new(Folder::open(&settings.folder, settings.force)?);
     let progress = Progress::new(settings.progress, scene.time.frames);
+    if let Some(warning) = too_much {
+        progress.warn(&warning);
+    }
     let configuration = Configuration::new(scene, &settings.command_line)?;
-    drive(Launch {
+    retry::drive(Launch {
         scene,
-        settings,
+        settings: settings.clone(),
         folder,
         progress,
         configuration,
         start: Start::Beginning,
         wall_s: 0.0,
+        retries: Vec::new(),
+        is_last_attempt: true,
     })
 }

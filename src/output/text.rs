@@ -1,5 +1,7 @@
 //! Numbers for people.
 
+use std::path::Path;
+
 /// `1,234,567`
 pub fn count(value: u64) -> String {
     let digits = value.to_string();
@@ -27,6 +29,16 @@ pub fn bytes(value: u64) -> String {
     }
     let text = format!("{scaled:.1}");
     format!("{} {}", text.strip_suffix(".0").unwrap_or(&text), UNITS[unit])
+}
+
+/// A path as a shell takes it.
+pub fn quoted(path: &Path) -> String {
+    let text = path.display().to_string();
+    if text.chars().any(|c| !c.is_alphanumeric() && !"/._-".contains(c)) {
+        format!("'{}'", text.replace('\'', "'\\''"))
+    } else {
+        text
+    }
 }
 
 /// A duration in seconds: `3.2 s`, `2 min 05 s`, `1 h 02 min`

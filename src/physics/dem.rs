@@ -33,7 +33,8 @@ pub(super) const MODEL: Model = Model {
     particle_mass: |scene| grains(&scene.matter).mass,
     sense_walls: ("physics/dem/sense_walls", false),
     fault: Fault {
-        too_long_for: "the contact's stiffness or damping; lower time.step or raise time.steps_per_contact",
+        too_long_for: "the contact's stiffness or damping",
+        shorter: "lower time.step, raise time.steps_per_contact, or set time.adaptive",
         lost: "raise grains.spring",
     },
 };
@@ -386,19 +387,36 @@ fn walls_that_clamp(scene: &Scene) -> ClampWalls {
 
 /// Speed beyond which a fluid's particle has run away, in speeds of sound. Scenes may throw fluid faster than sound; what is
 /// this fast is no flow, and soon no number.
-const RUNAWAY: f64 = 100.0;
+pub const RUNAWAY: f64 = 100.0;
+/// Beyond so many radii from the origin, numbers of single precision are a diameter apart.
+const EDGE: f64 = 16_777_216.0;
 
-/// Where particles count as lost: a diameter beyond a side that is closed. The upper's fourth number is the square of the
-/// speed beyond which they have run away.
+/// How far away a particle may be, metres.
+pub fn edge(scene: &Scene) -> f32 {
+    (EDGE * scene.radius()) as f32
+}
+
+/// Where particles count as lost: a diameter beyond a side that is closed, and far away beyond one that is open. The upper's
+/// fourth number is the square of the speed beyond which they have run away: of fluids by the speed of sound, and where
+/// steps have one length, by how far a particle may move in one.
 pub fn guard_bounds(scene: &Scene) -> ([f32; 4], [f32; 4]) {
-    let (lower, mut upper) = bounds(
+    let (mut lower, mut upper) = bounds(
         scene,
         |wall| !matches!(wall, Wall::Open | Wall::Periodic),
         -2.0 * scene.radius() as f32,
     );
-    upper[3] = scene.fluid().map_or(f32::MAX, |fluid| {
-        (RUNAWAY * fluid.sound_speed).powi(2).min(f32::MAX.into()) as f32
-    });
+    let edge = edge(scene);
+    for axis in 0..3 {
+        (lower[axis], upper[axis]) = (lower[axis].max(-edge), upper[axis].min(edge));
+    }
+    let by_sound = scene
+        .fluid()
+        .map_or(f64::INFINITY, |fluid| RUNAWAY * fluid.sound_speed);
+    let by_step = match scene.time.adaptive {
+        Some(_) => f64::INFINITY,
+        None => scene.search_radius() / scene.time.step,
+    };
+    upper[3] = by_sound.min(by_step).powi(2).min(f32::MAX.into()) as f32;
     (lower, upper)
 }
 

@@ -56,7 +56,8 @@ pub(super) const FIGURES: &[&str] = &[
     "clamped_densities",
 ];
 pub(super) const FAULT: Fault = Fault {
-    too_long_for: "the fluid's speed; raise fluid.max_speed or lower time.step",
+    too_long_for: "the fluid's speed",
+    shorter: "raise fluid.max_speed, lower time.step, or set time.adaptive",
     lost: "raise fluid.max_speed",
 };
 /// `fluid_state` holds ρ/ρ₀ − 1 and the pressure, Pa.

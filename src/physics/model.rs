@@ -126,8 +126,10 @@ pub struct FromState {
 /// What a solver says of a particle that went wrong.
 #[derive(Debug)]
 pub struct Fault {
-    /// What a step was too long for where numbers are not finite, and what to do.
+    /// What a step was too long for where numbers are not finite.
     pub too_long_for: &'static str,
+    /// What makes steps shorter.
+    pub shorter: &'static str,
     /// What to do where particles leave through a closed side.
     pub lost: &'static str,
 }

@@ -1,6 +1,5 @@
 //! Executes a plan: steps, frames, and what comes back of them.
 
-mod casualty;
 pub mod frame;
 mod neighbor_lists;
 mod particles;
@@ -12,6 +11,7 @@ pub mod sensors;
 pub mod state;
 mod step_control;
 mod submissions;
+mod violation;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -531,7 +531,7 @@ impl Simulation {
             .map(|bytes| bytemuck::pod_read_unaligned(bytes));
         let guard: Guard = bytemuck::pod_read_unaligned(by_name["guard"]);
         if guard.count > 0 {
-            return Err(self.casualty(&guard, pending.index, clock.step, step_control.as_ref()));
+            return Err(self.caught(&guard, pending.index, clock.step, step_control.as_ref()));
         }
         let overflow = by_name
             .get("overflow")

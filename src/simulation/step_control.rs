@@ -3,7 +3,7 @@
 use super::Simulation;
 use super::frame::AdaptiveSteps;
 use super::segments::Segment;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::physics::collider::offset_at;
 use crate::physics::layout::{Clock, Guard, StepControl};
 use crate::physics::step_control::names;
@@ -62,22 +62,9 @@ impl Simulation {
         let clock = self.read_one::<Clock>("clock")?;
         let guard = self.read_one::<Guard>("guard")?;
         if guard.count > 0 {
-            return Err(self.casualty(&guard, self.next_frame, clock.step, Some(step_control)));
+            return Err(self.caught(&guard, self.next_frame, clock.step, Some(step_control)));
         }
-        Err(Error::Limit {
-            what: format!(
-                "before frame {}, after {} steps, a step would have {:.3e} s where {:.3e} s were expected: the run would \
-                 never end; the step is limited by the {}",
-                self.next_frame,
-                clock.step,
-                step_control.wanted,
-                limits.expected,
-                names(limits)[step_control.limit as usize],
-            ),
-            help: "look at the frame before for particles that are far too fast, set time.adaptive to false, or begin \
-                   with a scene whose particles do not lie in one another"
-                .into(),
-        })
+        Err(self.stalled(step_control, clock.step, limits.expected))
     }
 
     /// How the steps since the last frame were; `None` where there was none.

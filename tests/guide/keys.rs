@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde_json::Value;
-use sliceflow::output::{manifest_schema, statistics_schema};
+use sliceflow::output::{manifest_schema, post_mortem_schema, statistics_schema};
 use sliceflow::scene::load;
 
 const SCENE_PAGE: &str = "scene_keys.md";
@@ -19,9 +19,10 @@ pub fn pages() -> [(&'static str, String); 2] {
     );
     let output = format!(
         "# Every key of stats.jsonl and run.json\n\n{MADE}\nUnits are in the keys or in the text. Keys that may be absent say \
-         so.\n{}{}",
+         so.\n{}{}{}",
         sections(&statistics_schema(), "stats.jsonl", Kind::Output),
         sections(&manifest_schema(), "run.json", Kind::Output),
+        sections(&post_mortem_schema(), "post_mortem/report.json", Kind::Output),
     );
     [(SCENE_PAGE, scene), (OUTPUT_PAGE, output)]
 }
@@ -32,6 +33,7 @@ pub fn without_description() -> Vec<String> {
         ("scene", load::schema()),
         ("stats.jsonl", statistics_schema()),
         ("run.json", manifest_schema()),
+        ("post_mortem/report.json", post_mortem_schema()),
     ];
     let mut missing = Vec::new();
     for (name, schema) in &schemas {

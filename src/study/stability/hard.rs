@@ -2,7 +2,8 @@
 
 use serde_json::json;
 
-use super::methods::{EXPECTED, FLUIDS, GRAINS, Method, SPACING, block};
+use super::arrangements::{self, ARRANGEMENTS};
+use super::methods::{EXPECTED, FLUIDS, GRAINS, INCOMPRESSIBLE, Method, SPACING, block};
 use super::trial::{lost, run};
 use super::{Failures, Scale};
 use crate::error::Result;
@@ -21,14 +22,14 @@ const FALL: f64 = 1e-4;
 /// Energy that an impact may gain.
 const GAIN: f64 = 0.02;
 
-type Outcome = std::result::Result<(), String>;
-type Case = fn(&Bench, Tried, u32) -> Result<Outcome>;
+pub type Outcome = std::result::Result<(), String>;
+pub type Case = fn(&Bench, Tried, u32) -> Result<Outcome>;
 
 /// A solver with steps of one length or with adaptive ones.
 #[derive(Clone, Copy)]
-struct Tried {
-    method: Method,
-    adaptive: bool,
+pub struct Tried {
+    pub method: Method,
+    pub adaptive: bool,
 }
 
 const CASES: [(&str, Case); 5] = [
@@ -54,12 +55,20 @@ pub fn cases(page: &mut Page, bench: &Bench, scale: &Scale, failures: &mut Failu
         shown(STILL),
         shown(GAIN),
     ));
+    page.paragraph(arrangements::about());
+    page.paragraph("The cases from *pair* on are tried with adaptive steps, and `dfsph` has no others.");
     let mut table = Table::new(["solver", "case", "fixed steps", "adaptive steps"]);
-    for method in FLUIDS.into_iter().chain(GRAINS) {
+    for method in FLUIDS.into_iter().chain([INCOMPRESSIBLE]).chain(GRAINS) {
         bench.tell(&format!("stability: hard cases of {}", method.name()));
-        for (name, case) in CASES {
+        let by_speed = CASES.map(|(name, case)| (name, case, method.has_fixed_steps()));
+        let by_place = ARRANGEMENTS.map(|(name, case)| (name, case, false));
+        for (name, case, has_fixed_steps) in by_speed.into_iter().chain(by_place) {
             let mut row = vec![Cell::text(method.name()), Cell::text(name)];
             for (adaptive, steps) in [(false, "fixed steps"), (true, "adaptive steps")] {
+                if !adaptive && !has_fixed_steps {
+                    row.push(Cell::Nothing);
+                    continue;
+                }
                 let outcome = case(bench, Tried { method, adaptive }, scale.short)?;
                 row.push(failures.verdict(&format!("{}, {name}, {steps}", method.name()), &outcome));
             }
@@ -151,7 +160,7 @@ fn clash(bench: &Bench, tried: Tried, steps: u32) -> Result<Outcome> {
 }
 
 /// Whether all particles stay, and no energy comes from nowhere.
-fn kept(bench: &Bench, scene: &Scene, steps: u32) -> Result<Outcome> {
+pub fn kept(bench: &Bench, scene: &Scene, steps: u32) -> Result<Outcome> {
     // Frames often enough to see a gain.
     let trial = match run(bench, scene, steps.div_ceil(10), 10)? {
         Ok(trial) => trial,
@@ -170,7 +179,7 @@ fn kept(bench: &Bench, scene: &Scene, steps: u32) -> Result<Outcome> {
 
 impl Tried {
     /// The speed that a fluid's sound follows from; grains have theirs in the spring.
-    fn expect(self, file: &mut serde_json::Value) {
+    pub fn expect(self, file: &mut serde_json::Value) {
         file["time"]["adaptive"] = self.adaptive.into();
         if self.method.is_fluid() {
             file["fluid"]["max_speed"] = EXPECTED.into();

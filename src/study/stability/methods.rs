@@ -37,6 +37,9 @@ pub const FLUIDS: [Method; 3] = [
     fluid("wcsph, summation", "wcsph", "summation"),
 ];
 
+/// Has no steps of one length, and no sound.
+pub const INCOMPRESSIBLE: Method = fluid("dfsph", "dfsph", "summation");
+
 pub const GRAINS: [Method; 2] = [
     grains("DEM, symplectic Euler", Integrator::SymplecticEuler),
     grains("DEM, velocity Verlet", Integrator::VelocityVerlet),
@@ -75,9 +78,11 @@ impl Method {
                 solver, density_from, ..
             } => {
                 file["fluid"] = json!({
-                    "solver": solver, "density_from": density_from, "spacing": SPACING, "density": DENSITY,
-                    "artificial_viscosity": 0.05
+                    "solver": solver, "spacing": SPACING, "density": DENSITY, "artificial_viscosity": 0.05
                 });
+                if self != INCOMPRESSIBLE {
+                    file["fluid"]["density_from"] = density_from.into();
+                }
             }
             Self::Grains { integrator, .. } => {
                 let radius = SPACING / 2.0;
@@ -92,6 +97,11 @@ impl Method {
         }
         change(&mut file);
         parse(&file)
+    }
+
+    /// Whether its steps have one length unless a scene asks for others.
+    pub fn has_fixed_steps(self) -> bool {
+        self != INCOMPRESSIBLE
     }
 
     pub fn is_fluid(self) -> bool {

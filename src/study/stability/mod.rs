@@ -1,5 +1,6 @@
 //! `sliceflow study stability`: how long steps may be, and what long runs and hard cases do to each solver.
 
+mod arrangements;
 mod endurance;
 mod hard;
 mod methods;
