@@ -7,6 +7,9 @@
 #import render/scene_pixel
 
 var<storage, read_write> frame_pixels: array<u32>;
+#if color_pass
+var<storage, read_write> pass_color: array<vec2u>; // half floats, multiplied by alpha
+#end
 
 @compute @workgroup_size(GROUP_SIZE)
 fn resolve(thread: Thread) {
@@ -21,6 +24,9 @@ fn resolve(thread: Thread) {
     if sum.a < 0.999 {
         color += (1.0 - sum.a) * backdrop(vec2f(pixel) + 0.5);
     }
+#if color_pass
+    pass_color[item] = vec2u(pack2x16float(color.rg), pack2x16float(color.ba));
+#end
     // Where the backdrop shows, its gradient would have bands.
     let noise = select(0.0, 1.0, sum.a < 0.5);
     let at = picture.rectangle.xy + pixel;

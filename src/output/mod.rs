@@ -9,6 +9,7 @@ mod configuration;
 mod disk;
 mod drive;
 mod estimate;
+mod exr;
 mod folder;
 mod forecast;
 mod frame_range;
@@ -21,6 +22,7 @@ mod measure;
 mod memory;
 pub mod npy;
 mod particles;
+mod passes;
 #[cfg(feature = "plots")]
 pub mod plot;
 mod png;

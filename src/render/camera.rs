@@ -2,8 +2,8 @@
 
 use glam::{DMat3, DVec2, DVec3, Mat4, Vec4};
 
-use super::layout::Insets;
-use crate::scene::model::{Axis, Projection};
+use super::layout::{Insets, Layout};
+use crate::scene::model::{Axis, Projection, View};
 use crate::scene::{ColliderShape, Dimensions, Scene};
 
 /// An eye, its axes and its lens; local coordinates, metres.
@@ -68,6 +68,18 @@ fn inner(insets: Insets, size: DVec2) -> (DVec2, DVec2) {
     let middle = DVec2::new(insets.left - insets.right, insets.bottom - insets.top) / size;
     let half = DVec2::ONE - DVec2::new(insets.left + insets.right, insets.bottom + insets.top) / size;
     (middle, half.max(DVec2::splat(0.2)))
+}
+
+/// What nothing that pictures of a run show is farther away than, along the view's axis, metres.
+pub fn depth_range(scene: &Scene) -> f64 {
+    let layout = Layout::new(scene, View::Scene);
+    let moments = if scene.render.camera.orbit == 0.0 { 1 } else { 240 };
+    let far = (0..moments).map(|k| {
+        let time = scene.file.time.duration * f64::from(k) / f64::from(moments);
+        Sight::new(scene, layout.frame, layout.insets, time).far
+    });
+    // Between these moments it may be a little farther.
+    1.02 * far.fold(0.0, f64::max)
 }
 
 impl Sight {

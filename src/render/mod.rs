@@ -11,6 +11,7 @@ mod layout;
 mod light;
 mod needs;
 mod overlay;
+pub mod passes;
 mod picture;
 mod pool_legend;
 mod stages;
@@ -23,7 +24,7 @@ mod water_stages;
 use glam::Vec3;
 
 pub use backdrop::{POOL_COLORS, linear};
-pub use camera::Sight;
+pub use camera::{Sight, depth_range};
 pub use colliders::{Vertices, plane_in_box, triangles as collider_vertices};
 pub use layout::{Layout, PoolPlace, Rectangle};
 pub use needs::{DrawNeed, Needs, TextureNeed, needs};
@@ -136,7 +137,7 @@ impl Renderer {
         if let (Some(stages), Some(place)) = (&self.stages, self.layout.scene) {
             let picture = Picture::new(&self.scene, &self.layout, place, &self.style, time, count);
             let looks = colliders::looks(&self.scene.colliders, offsets);
-            stages.encode(gpu, encoder, &picture, &looks)?;
+            stages.encode(gpu, encoder, &self.scene, &self.layout, &picture, &looks, time)?;
         }
         if let (Some(paint), Some(place)) = (&self.paint_pool, &self.layout.pool) {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {

@@ -21,8 +21,8 @@ use super::friction;
 use super::grain_keys;
 use super::grain_materials;
 use super::model::{
-    Addressing, DensityFrom, FluidSolver, Integrator, Look, Render, SceneFile, SlicingAxis, StartPressure,
-    Storage, Wall,
+    Addressing, DensityFrom, FluidSolver, ImagePass, Integrator, Look, PassFiles, Render, SceneFile,
+    SlicingAxis, StartPressure, Storage, View, Wall,
 };
 use super::rigid;
 use super::text::number;
@@ -433,6 +433,27 @@ fn water(file: &SceneFile, frame: &Frame, report: &mut Report) {
     }
 }
 
+/// Which extra images can be made.
+fn passes(render: &Render, report: &mut Report) {
+    if render.passes.is_empty() {
+        return;
+    }
+    if render.view != View::Scene {
+        report.problem(
+            "render.passes",
+            "extra images show the scene alone",
+            "set render.view to `scene`, or leave render.passes out",
+        );
+    }
+    if render.pass_files == PassFiles::Png && render.passes.contains(&ImagePass::Velocity) {
+        report.problem(
+            "render.passes",
+            "PNG files cannot hold `velocity`",
+            "set render.pass_files to `exr`, or choose `motion`, which is in pixels",
+        );
+    }
+}
+
 /// Pixels along a side.
 const SMALLEST_FRAME: u32 = 16;
 const LARGEST_FRAME: u32 = 16_384;
@@ -458,6 +479,7 @@ fn render(file: &SceneFile, frame: &Frame, report: &mut Report) -> Render {
             .push("render.show.slices: this grid has no slices, so none are drawn".into());
     }
     water(file, frame, report);
+    passes(&render, report);
     render.show.caption &= render.show.overlay;
     if render.light.is_some_and(|light| light == [0.0; 3]) {
         report.problem(

@@ -30,6 +30,10 @@ pub struct Render {
     pub background: Background,
     /// What else pictures show.
     pub show: Show,
+    /// Extra images of each frame, for compositing. Text, lines, slices and water's refraction are in none but `color`.
+    pub passes: Vec<ImagePass>,
+    /// Files that extra images are written to.
+    pub pass_files: PassFiles,
     /// Samples along each side of a pixel.
     #[schemars(range(min = 1, max = 4))]
     pub antialias: u32,
@@ -51,6 +55,8 @@ impl Default for Render {
             camera: Camera::default(),
             background: Background::default(),
             show: Show::default(),
+            passes: Vec::new(),
+            pass_files: PassFiles::default(),
             antialias: 2,
             light: None,
         }
@@ -82,6 +88,35 @@ pub enum Look {
     /// The smooth surface of a clear liquid, which reflects the sky and refracts what lies behind it: screen-space fluid
     /// with a narrow-range filter (Truong and Yuksel 2018). Fluids in 3D have it.
     Water,
+}
+
+/// An extra image of a frame. All but `color` hold what the middle of each pixel sees.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ImagePass {
+    /// The picture without text, as linear light multiplied by its alpha.
+    Color,
+    /// Distance from the eye along the view's axis, metres.
+    Depth,
+    /// Unit normal in the scene's axes, on the eye's side.
+    Normal,
+    /// 1 + the particle's id; 4294967295 − the number of the obstacle; 0 elsewhere.
+    Id,
+    /// Velocity in the scene's axes, m/s.
+    Velocity,
+    /// Where what is seen will be in the next frame, pixels to the right and up from where it is now; with the camera's own motion.
+    Motion,
+}
+
+/// Files that extra images are written to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PassFiles {
+    /// One OpenEXR file per frame, with a layer for each image; exact values.
+    #[default]
+    Exr,
+    /// One PNG per image and frame, 16 bits per channel; `run.json` says how numbers are written. It cannot hold `velocity`.
+    Png,
 }
 
 /// What water looks like.
