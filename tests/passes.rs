@@ -76,7 +76,7 @@ fn a_ball_and_a_box_are_where_rays_meet_them() {
         .unwrap()
         .to_rgba8();
     let tangent = 17.5_f64.to_radians().tan();
-    let [mut of_ball, mut of_box, mut steepest] = [0, 0, 1.0_f64];
+    let (mut of_ball, mut of_box, mut steepest) = (0, 0, 1.0_f64);
     for pixel in 0..160 * 120 {
         let (x, y) = (pixel % 160, pixel / 160);
         let ray = DVec3::new(

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use sliceflow::gpu::{Shader, Variant, compose};
 use sliceflow::neighbors::NO_VOXEL;
 use sliceflow::physics::fields;
+use sliceflow::render::blur::Subframe;
 use sliceflow::render::passes::Passes;
 use sliceflow::render::{Picture, PoolPanel, Water};
 use sliceflow::scene::column::{COLUMNS, Column};
@@ -46,6 +47,7 @@ fn variants() -> Vec<Variant> {
                 .flag("solid_floor", solid && !transparent)
                 .flag("has_obstacles", solid)
                 .flag("color_pass", transparent)
+                .flag("blurred", water)
                 .role(
                     "seen_particle",
                     match (two, water) {
@@ -100,6 +102,7 @@ fn uniforms_have_one_layout_on_both_sides() {
         ("render/picture", Picture::LAYOUT),
         ("render/pool", PoolPanel::LAYOUT),
         ("render/passes/images", Passes::LAYOUT),
+        ("render/subframe", Subframe::LAYOUT),
         ("render/water/water", Water::LAYOUT),
     ] {
         let shader = Shader::load(path, variant).unwrap();

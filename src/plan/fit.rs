@@ -218,6 +218,7 @@ const OTHER_BUFFERS: &[&str] = &["distance_field", "voxel_map", "collider_vertex
 const PICTURE_BUFFERS: &[&str] = &[
     "frame_pixels",
     "block_depth",
+    "blur_sum",
     "pass_color",
     "pass_depth",
     "pass_normal",

@@ -1,5 +1,6 @@
 //! What a picture needs, before there is a device: buffers, textures, draws, each with its reason.
 
+use super::blur;
 use super::colliders;
 use super::layout::Layout;
 use super::light::SHADOW_TEXELS;
@@ -270,5 +271,6 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         "render/resolve",
         "samples to pixels, over the backdrop",
     );
+    blur::add(needs, scene, style, size);
     passes::add(needs, scene, style, size);
 }

@@ -1,8 +1,6 @@
 //! Extra images of a frame, for compositing. A draw marks what the middle of each pixel sees; from the marks come depths,
 //! normals, ids and velocities, each by a pass of its own into a buffer of its own.
 
-use glam::Vec3;
-
 use super::camera::Sight;
 use super::layout::Layout;
 use super::needs::Needs;
@@ -11,7 +9,7 @@ use super::stages::{Maker, Placed, STRIP, TRIANGLES, Target, dispatch, draw_all,
 use super::style::Style;
 use crate::error::Result;
 use crate::gpu::{Buffers, Gpu, Pass};
-use crate::physics::collider::offset_at;
+use crate::physics::collider::velocity_between;
 use crate::scene::Scene;
 use crate::scene::model::{ImagePass, Render};
 use crate::shared_struct;
@@ -192,11 +190,8 @@ impl PassStages {
             let velocities: Vec<[f32; 4]> = scene
                 .colliders
                 .iter()
-                .map(|collider| {
-                    let [now, then] = [time, time + frame_s].map(|at| offset_at(&collider.path, at));
-                    let velocity: Vec3 = (then - now) / uniforms.frame_s;
-                    velocity.extend(0.0).to_array()
-                })
+                .map(|collider| velocity_between(&collider.path, time, time + frame_s))
+                .map(|velocity| velocity.extend(0.0).to_array())
                 .collect();
             upload(gpu, encoder, buffer, bytemuck::cast_slice(&velocities))?;
         }

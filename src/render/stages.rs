@@ -257,11 +257,8 @@ impl Stages {
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
-        scene: &Scene,
-        layout: &Layout,
         picture: &Picture,
         looks: &[[f32; 4]],
-        time: f64,
     ) -> Result<()> {
         upload(gpu, encoder, &self.picture, bytemuck::bytes_of(picture))?;
         if let Some(buffer) = &self.collider_look {
@@ -287,6 +284,19 @@ impl Stages {
             Particles::Splats { resolve, .. } => dispatch(encoder, resolve, width * height),
             Particles::Water(stages) => stages.encode(encoder, picture),
         }
+        Ok(())
+    }
+
+    /// Extra images, behind the picture that they belong to.
+    pub fn encode_passes(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &Scene,
+        layout: &Layout,
+        picture: &Picture,
+        time: f64,
+    ) -> Result<()> {
         match &self.passes {
             Some(passes) => passes.encode(gpu, encoder, scene, layout, picture, time),
             None => Ok(()),

@@ -35,6 +35,8 @@ pub struct Style {
     pub marks: bool,
     /// There is an extra image of linear light.
     pub color_pass: bool,
+    /// A frame is the mean of several pictures.
+    pub blurred: bool,
     /// Metres, as drawn.
     pub radius: f64,
 }
@@ -67,6 +69,7 @@ impl Style {
             slices: drawn && render.show.slices && scene.neighbors.addressing == Addressing::Sliced,
             marks: drawn && passes::need_marks(render),
             color_pass: drawn && render.passes.contains(&ImagePass::Color),
+            blurred: drawn && render.is_blurred(),
             radius,
         }
     }
@@ -95,6 +98,7 @@ impl Style {
             .flag("solid_floor", self.floor && !self.transparent)
             .flag("has_obstacles", self.colliders)
             .flag("color_pass", self.color_pass)
+            .flag("blurred", self.blurred)
             .role("seen_particle", self.seen_particle())
             .constant("SHADOW_TEXELS", SHADOW_TEXELS)
             .constant("OCCLUSION_BLOCK", BLOCK)

@@ -3,14 +3,10 @@
 #import common/thread
 #import render/picture
 #import render/backdrop
-#import render/pixel
+#import render/put_pixel
 #import render/water/shade
 
 var scene_color: texture_2d<f32>;
-var<storage, read_write> frame_pixels: array<u32>;
-#if color_pass
-var<storage, read_write> pass_color: array<vec2u>; // half floats, multiplied by alpha
-#end
 
 @compute @workgroup_size(GROUP_SIZE)
 fn resolve_water(thread: Thread) {
@@ -40,10 +36,5 @@ fn resolve_water(thread: Thread) {
     if clear > 0.0 {
         sum += clear * backdrop(vec2f(pixel) + 0.5);
     }
-    let color = sum / f32(n * n);
-#if color_pass
-    pass_color[item] = vec2u(pack2x16float(color.rg), pack2x16float(color.ba));
-#end
-    let at = picture.rectangle.xy + pixel;
-    frame_pixels[at.y * picture.frame_width + at.x] = finished(color, pixel, 1.0);
+    put_pixel(pixel, sum / f32(n * n), 1.0);
 }
