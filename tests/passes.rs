@@ -258,7 +258,10 @@ fn pngs_hold_the_same_and_nothing_is_overwritten() {
     let bytes = |run: &str| fs::read(place.path(run).join("frame_000001.exr")).unwrap();
     assert!(bytes("first") == bytes("again"), "drawn from files it differs");
     let told = place.told(&mut place.sliceflow(&first), 2);
-    assert!(told.contains("--force"), "{told}");
+    assert!(
+        told.contains("2 frames, 2 files of extra images") && told.contains("--force"),
+        "{told}"
+    );
     fs::create_dir(place.path("mine")).unwrap();
     fs::write(place.path("mine/frame_000000.exr"), "mine").unwrap();
     let mine = [

@@ -433,8 +433,21 @@ fn water(file: &SceneFile, frame: &Frame, report: &mut Report) {
     }
 }
 
-/// Which extra images can be made.
+/// Which extra images can be made, and what can be blurred.
 fn passes(render: &Render, report: &mut Report) {
+    for (key, is_wanted) in [
+        ("render.passes", !render.passes.is_empty()),
+        ("render.shutter", render.shutter > 0.0),
+        ("render.camera.aperture", render.camera.aperture > 0.0),
+    ] {
+        if is_wanted && !render.look.follows_particles() {
+            report.problem(
+                key,
+                "this look has neither extra images nor blur",
+                "choose `splats`, `spheres` or `water`",
+            );
+        }
+    }
     if render.passes.is_empty() {
         return;
     }

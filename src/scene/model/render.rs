@@ -135,6 +135,15 @@ pub enum PassFiles {
     Png,
 }
 
+impl Look {
+    /// Whether each picture is drawn from particles where they stand, so that there are extra images and blur.
+    pub fn follows_particles(self) -> bool {
+        match self {
+            Self::Splats | Self::Spheres | Self::Water => true,
+        }
+    }
+}
+
 /// What water looks like.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
