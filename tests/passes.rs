@@ -456,4 +456,13 @@ fn what_cannot_be_made_is_refused() {
         "render.color.by=y",
     ]);
     assert!(velocity.contains("--columns position,velocity"), "{velocity}");
+    let blur = told(&[
+        "render",
+        "still",
+        "--shutter",
+        "0.5",
+        "--set",
+        "render.color.by=y",
+    ]);
+    assert!(blur.contains("--columns position,velocity"), "{blur}");
 }

@@ -119,8 +119,25 @@ fn extra_images_are_what_the_arrays_say() {
     let meshes = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/meshes");
     let mut command = assert_cmd::cargo::cargo_bin_cmd!("sliceflow");
     command
-        .args(["run", SCENE_3D, "--frames", "2", "--particles", "npy", "--size", "160x90"])
-        .args(["--passes", passes, "--allow-read", meshes, "--progress", "plain", "--out"])
+        .args([
+            "run",
+            SCENE_3D,
+            "--frames",
+            "2",
+            "--particles",
+            "npy",
+            "--size",
+            "160x90",
+        ])
+        .args([
+            "--passes",
+            passes,
+            "--allow-read",
+            meshes,
+            "--progress",
+            "plain",
+            "--out",
+        ])
         .arg(&out)
         .args(["--set", "render.background=transparent"])
         .assert()

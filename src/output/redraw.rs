@@ -281,14 +281,15 @@ fn check_color(scene: &Scene, snapshot: &Snapshot, frame: u32) -> Result<()> {
     Ok(())
 }
 
-/// Refuses extra images that the files cannot tell.
+/// Refuses extra images and blur that need velocities where the files hold none.
 fn check_passes(scene: &Scene, snapshot: &Snapshot, frame: u32) -> Result<()> {
     let of_velocity = [ImagePass::Velocity, ImagePass::Motion];
     let is_wanted = scene.render.passes.iter().any(|pass| of_velocity.contains(pass));
-    if is_wanted && snapshot.column("velocity").is_none() {
+    if (is_wanted || scene.render.shutter > 0.0) && snapshot.column("velocity").is_none() {
         return Err(Error::usage(
-            format!("frame {frame} has no extra images of velocities: its particle files have none"),
-            "leave `velocity` and `motion` out of --passes, or run again with --columns position,velocity",
+            format!("frame {frame} tells no motion: its particle files have no velocity"),
+            "leave `velocity` and `motion` out of --passes and set no --shutter, or run again with --columns \
+             position,velocity",
         ));
     }
     Ok(())

@@ -48,7 +48,10 @@ pub const ENTRIES: [Entry; 8] = [
         name: "hopper",
         about: "Grains in colored layers flow out of a hopper.",
         scene: "hopper",
-        set: &[],
+        set: &[
+            "render.camera.eye=[0.2,0.42,1.2]",
+            "render.camera.target=[0,0.32,0]",
+        ],
         frame: 40,
     },
     Entry {
