@@ -28,7 +28,7 @@ pub const ENTRIES: [Entry; 8] = [
         about: "A ball of water falls into a tank.",
         scene: "harada_droplet",
         set: &[],
-        frame: 36,
+        frame: 23,
     },
     Entry {
         name: "bunny_shower",
@@ -58,8 +58,12 @@ pub const ENTRIES: [Entry; 8] = [
         name: "bunnies",
         about: "Bunnies, each a rigid body, tumble into a box.",
         scene: "bunny_box",
-        set: &["render.show.domain=false"],
-        frame: 24,
+        set: &[
+            "render.show.domain=false",
+            "render.camera.eye=[0.46,0.4,0.7]",
+            "render.camera.target=[0,0.12,0]",
+        ],
+        frame: 18,
     },
     Entry {
         name: "brick_wall",
