@@ -113,7 +113,7 @@ fn extent(image: &RgbaImage) -> (u32, u32) {
     let lit = |&x: &u32| (0..120).any(|y| image.get_pixel(x, y).0[..3].iter().any(|&c| c > 8));
     let mut columns = (0..160).filter(lit);
     let first = columns.next().unwrap();
-    (first, columns.last().unwrap())
+    (first, columns.next_back().unwrap())
 }
 
 #[test]
