@@ -33,7 +33,8 @@
 //!   (`src/physics/fields.rs`). Steps whose length the device chooses (`src/physics/step_control.rs`). Probes of sensors, and what
 //!   their readings mean (`src/physics/sensors.rs`).
 //! - `src/render/`: pictures from the simulation's own buffers: splats, water (`src/render/water.rs`), colliders, slices, the
-//!   pool's heatmap, legends.
+//!   pool's heatmap, legends. Extra images for compositing (`src/render/passes.rs`), motion blur and depth of field
+//!   (`src/render/blur.rs`).
 //! - `src/plan/`: scene + limits → every buffer and pass, with the reason for each. Needs no GPU. What is good enough for an
 //!   error, from what was measured (`src/plan/achieved.rs`).
 //! - `src/simulation/`: executes a plan: steps, frames, what comes back. Grids that need more room get it
@@ -110,6 +111,10 @@
 //! - a parameter that events change: one key in `src/scene/model.rs` and one row in `src/scene/changes.rs`;
 //! - a format of particle files: one row in `src/output/particles/formats.rs`; a kind of video: one in
 //!   `src/output/video/mod.rs`;
+//! - an extra image of frames: one row in `src/render/passes.rs` and one in `src/output/passes.rs`, and its entry point in
+//!   `shaders/render/passes/images.wgsl`;
+//! - a look: what marks its pixels and where they see it, in `shaders/render/passes/`, so that it has extra images too;
+//! - a picture of `sliceflow gallery`: one row in `src/cli/gallery/scenes.rs`;
 //! - a format of surfaces: one row in `src/output/surface/mesh_file.rs`;
 //! - a color map: one row in `src/scene/color_maps.rs`;
 //! - a study: one row in `src/study/mod.rs`, whose parts (`src/study/parts.rs`) run alone too;

@@ -109,3 +109,39 @@ fn surfaces_and_usd_are_what_the_arrays_say() {
     let told = python("artists.py", &[run, &glbs, &clips, &one_file, "50", "0", "2"]);
     assert!(told.starts_with("2 frames agree"), "{told}");
 }
+
+/// What compositors open.
+#[test]
+fn extra_images_are_what_the_arrays_say() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let passes = "color,depth,normal,id,velocity,motion";
+    let meshes = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/meshes");
+    let mut command = assert_cmd::cargo::cargo_bin_cmd!("sliceflow");
+    command
+        .args([
+            "run",
+            SCENE_3D,
+            "--frames",
+            "2",
+            "--particles",
+            "npy",
+            "--size",
+            "160x90",
+        ])
+        .args([
+            "--passes",
+            passes,
+            "--allow-read",
+            meshes,
+            "--progress",
+            "plain",
+            "--out",
+        ])
+        .arg(&out)
+        .args(["--set", "render.background=transparent"])
+        .assert()
+        .success();
+    let told = python("images.py", &[out.to_str().unwrap(), "0", "1"]);
+    assert_eq!(told.trim(), "2 frames agree");
+}

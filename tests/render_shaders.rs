@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use sliceflow::gpu::{Shader, Variant, compose};
 use sliceflow::neighbors::NO_VOXEL;
 use sliceflow::physics::fields;
+use sliceflow::render::blur::Subframe;
+use sliceflow::render::passes::Passes;
 use sliceflow::render::{Picture, PoolPanel, Water};
 use sliceflow::scene::column::{COLUMNS, Column};
 use sliceflow::scene::field::FIELDS;
@@ -42,6 +44,18 @@ fn variants() -> Vec<Variant> {
                 .flag("has_floor", solid)
                 .flag("water", water)
                 .flag("transparent", transparent)
+                .flag("solid_floor", solid && !transparent)
+                .flag("has_obstacles", solid)
+                .flag("color_pass", transparent)
+                .flag("blurred", water)
+                .role(
+                    "seen_particle",
+                    match (two, water) {
+                        (true, _) => "render/passes/seen_disc",
+                        (_, true) => "render/passes/seen_water",
+                        _ => "render/passes/seen_sphere",
+                    },
+                )
                 .constant("SHADOW_TEXELS", 1024)
                 .constant("OCCLUSION_BLOCK", 8)
                 .role("column", file_of(column, &fields::modules(FIELDS)))
@@ -87,6 +101,8 @@ fn uniforms_have_one_layout_on_both_sides() {
     for (path, layout) in [
         ("render/picture", Picture::LAYOUT),
         ("render/pool", PoolPanel::LAYOUT),
+        ("render/passes/images", Passes::LAYOUT),
+        ("render/subframe", Subframe::LAYOUT),
         ("render/water/water", Water::LAYOUT),
     ] {
         let shader = Shader::load(path, variant).unwrap();

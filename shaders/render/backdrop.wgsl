@@ -3,6 +3,7 @@
 #import render/picture
 #if has_floor
 #import render/floor
+#import render/ray
 #end
 #if shadows
 #import render/shadow
@@ -13,24 +14,15 @@
 
 // Linear color at a place of the scene's rectangle, in pixels, multiplied by its alpha.
 fn backdrop(pixel: vec2f) -> vec4f {
-    let size = vec2f(picture.rectangle.zw);
 #if transparent
     var color = vec4f(0.0);
 #else
-    let height = 1.0 - pixel.y / size.y;
+    let height = 1.0 - pixel.y / f32(picture.rectangle.w);
     var color = vec4f(mix(picture.backdrop_low.rgb, picture.backdrop_high.rgb, smoothstep(0.0, 1.0, height)), 1.0);
 #end
 #if has_floor
-    let ndc = vec2f(2.0 * pixel.x / size.x - 1.0, 1.0 - 2.0 * pixel.y / size.y) - picture.lens.zw;
-    let sideways = picture.right.xyz * (ndc.x * picture.lens.x) + picture.up.xyz * (ndc.y * picture.lens.y);
-    var start = picture.eye.xyz;
-    var direction = picture.forward.xyz;
-    if picture.eye.w > 0.5 {
-        direction += sideways;
-    } else {
-        start += sideways;
-    }
-    let floor = floor_seen(start, direction);
+    let ray = ray_through(pixel);
+    let floor = floor_seen(ray.start, ray.direction);
     if floor.fade > 0.0 {
         var shade = vec3f(0.0);
 #if shadows

@@ -3,10 +3,8 @@
 #import common/thread
 #import render/picture
 #import render/backdrop
-#import render/pixel
+#import render/put_pixel
 #import render/scene_pixel
-
-var<storage, read_write> frame_pixels: array<u32>;
 
 @compute @workgroup_size(GROUP_SIZE)
 fn resolve(thread: Thread) {
@@ -23,6 +21,5 @@ fn resolve(thread: Thread) {
     }
     // Where the backdrop shows, its gradient would have bands.
     let noise = select(0.0, 1.0, sum.a < 0.5);
-    let at = picture.rectangle.xy + pixel;
-    frame_pixels[at.y * picture.frame_width + at.x] = finished(color, pixel, noise);
+    put_pixel(pixel, color, noise);
 }

@@ -48,14 +48,7 @@ fn shade_sphere(corner: Corner) -> Surface {
     if k2 > 1.0 {
         discard;
     }
-    // Where the ray meets the sphere, relative to its center and radius: see the head of splat_quad.
-    let rho = corner.rho_openness.x;
-    let stretch2 = 1.0 / (1.0 - rho * rho);
-    let s = sqrt(1.0 - k2);
-    let d = 1.0 + rho * rho * stretch2 * k2;
-    let along = (rho * stretch2 * k2 + s) / d;
-    let across = sqrt(stretch2) * (1.0 - rho * s) / d;
-    let normal = corner.toward * along + corner.offset * across;
+    let normal = sphere_normal(corner.offset, corner.toward, corner.rho_openness.x);
     let point = corner.center + picture.radius * normal;
     let clip = picture.view_projection * vec4f(point, 1.0);
     var surface: Surface;

@@ -25,6 +25,17 @@ fn splat_quad(center: vec3f, radius: f32) -> SplatQuad {
     return quad;
 }
 
+// Normal of the sphere where the ray through a point of its square meets it; `offset` is in half sides, at most 1 long.
+fn sphere_normal(offset: vec3f, toward: vec3f, rho: f32) -> vec3f {
+    let k2 = dot(offset, offset);
+    let stretch2 = 1.0 / (1.0 - rho * rho);
+    let s = sqrt(max(1.0 - k2, 0.0));
+    let d = 1.0 + rho * rho * stretch2 * k2;
+    let along = (rho * stretch2 * k2 + s) / d;
+    let across = sqrt(stretch2) * (1.0 - rho * s) / d;
+    return toward * along + offset * across;
+}
+
 // Corner 0 to 3 of a triangle strip, from -1 to 1.
 fn strip_corner(index: u32) -> vec2f {
     return vec2f(f32(index & 1u), f32(index >> 1u)) * 2.0 - 1.0;

@@ -9,6 +9,7 @@ mod completions;
 mod device_args;
 mod devices;
 mod diff;
+mod gallery;
 mod grid;
 mod guard_args;
 mod import;
@@ -74,6 +75,7 @@ enum Command {
     Inspect(inspect::Args),
     Measure(measure::Args),
     Neighbors(neighbors::Args),
+    Gallery(gallery::Args),
     Surface(surface::Args),
     Usd(usd::Args),
     Import(import::Args),
@@ -102,6 +104,7 @@ pub fn main() -> Result<()> {
         Command::Inspect(args) => inspect::main(&args),
         Command::Measure(args) => measure::main(&args),
         Command::Neighbors(args) => neighbors::main(&args),
+        Command::Gallery(args) => gallery::main(&args),
         Command::Surface(args) => surface::main(&args),
         Command::Usd(args) => usd::main(&args),
         Command::Import(args) => import::main(&args),

@@ -16,7 +16,6 @@ impl QuietArgs {
         if self.quiet { Style::None } else { otherwise }
     }
 
-    #[cfg(any(feature = "study", feature = "surface"))]
     pub fn is_quiet(self) -> bool {
         self.quiet
     }

@@ -35,8 +35,8 @@ pub struct Args {
     /// Makes a video: .mp4 and .webm by the program ffmpeg; .gif and .png (animated), small, by Sliceflow itself
     #[arg(long, value_name = "FILE")]
     video: Option<PathBuf>,
-    /// Writes no picture of each frame
-    #[arg(long, requires = "video")]
+    /// Writes no picture of each frame, nor extra images
+    #[arg(long, requires = "video", conflicts_with = "passes")]
     no_pictures: bool,
     /// Folder to write [default: RUN_render]
     #[arg(short, long, value_name = "DIR")]
@@ -53,6 +53,7 @@ Examples:
   sliceflow render out/green_cube --set render.color.by=y --set render.color.map=turbo
   sliceflow render out/green_cube --size 3840x2160 --out out/green_cube_large
   sliceflow render out/dam --look water --no-overlay
+  sliceflow render out/dam --passes color,depth,normal,motion --set render.background=transparent
   sliceflow render out/dam --set render.color.by=pressure --frames 10..40 --video out/dam.gif
   sliceflow render out/harada_figure_2_small --view both --set neighbors.storage=pool";
 
@@ -62,6 +63,7 @@ pub fn main(args: &Args) -> Result<()> {
     args.looks.put(&mut |key: &str, value: Option<String>| {
         overrides.extend(value.map(|value| format!("{key}={value}")));
     });
+    overrides.extend(args.no_pictures.then(|| "render.passes=[]".to_owned()));
     overrides.extend(args.view.iter().map(|view| format!("render.view={view}")));
     overrides.extend(
         args.size

@@ -28,8 +28,8 @@ pub struct RunArgs {
     /// Makes a video: .mp4 and .webm by the program ffmpeg; .gif and .png (animated), small, by Sliceflow itself
     #[arg(long, value_name = "FILE")]
     video: Option<PathBuf>,
-    /// Draws no pictures
-    #[arg(long)]
+    /// Draws no pictures, nor extra images
+    #[arg(long, conflicts_with = "passes")]
     no_pictures: bool,
     /// Writes no statistics; guards of energy, overlap and density need them
     #[arg(long)]
@@ -48,6 +48,7 @@ impl RunArgs {
             frames: self.frames,
             grid: self.grid.as_deref(),
             view: self.view.as_deref(),
+            no_passes: self.no_pictures,
         })
     }
 

@@ -48,6 +48,8 @@ pub struct Choices<'a> {
     pub frames: Option<u32>,
     pub grid: Option<&'a str>,
     pub view: Option<&'a str>,
+    /// Whether extra images are left out, whatever the scene says.
+    pub no_passes: bool,
     /// Bytes that the scene may take where the user does not say.
     pub memory: Option<u64>,
 }
@@ -90,6 +92,7 @@ impl SceneArgs {
             self.size.map(|[width, height]| format!("[{width},{height}]")),
         );
         self.looks.put(&mut put);
+        put("render.passes", choices.no_passes.then(|| "[]".to_owned()));
         put("render.view", choices.view.map(str::to_owned));
         if let Some(name) = choices.grid {
             overrides.extend(grid::overrides(name)?);

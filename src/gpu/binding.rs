@@ -1,7 +1,7 @@
 //! Layouts and bind groups: what entry points use, bound by name.
 
 use crate::error::Result;
-use crate::gpu::reflect::{Resource, ResourceKind};
+use crate::gpu::reflect::{Resource, ResourceKind, Texels};
 use crate::gpu::{Buffers, Gpu, Shader};
 
 /// A resource that is no whole buffer (a texture, a sampler, an element of a buffer), and its name.
@@ -120,11 +120,11 @@ impl ResourceKind {
         match self {
             Self::Uniform => buffer(wgpu::BufferBindingType::Uniform),
             Self::Storage { read_only } => buffer(wgpu::BufferBindingType::Storage { read_only }),
-            Self::Texture { depth } => wgpu::BindingType::Texture {
-                sample_type: if depth {
-                    wgpu::TextureSampleType::Depth
-                } else {
-                    wgpu::TextureSampleType::Float { filterable: true }
+            Self::Texture(texels) => wgpu::BindingType::Texture {
+                sample_type: match texels {
+                    Texels::Depth => wgpu::TextureSampleType::Depth,
+                    Texels::Color => wgpu::TextureSampleType::Float { filterable: true },
+                    Texels::Unsigned => wgpu::TextureSampleType::Uint,
                 },
                 view_dimension: wgpu::TextureViewDimension::D2,
                 multisampled: false,

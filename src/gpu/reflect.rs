@@ -28,16 +28,18 @@ pub struct Resource {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ResourceKind {
     Uniform,
-    Storage {
-        read_only: bool,
-    },
-    /// A depth or color texture; color textures are filterable unless they are sampled by loads only.
-    Texture {
-        depth: bool,
-    },
-    Sampler {
-        comparison: bool,
-    },
+    Storage { read_only: bool },
+    Texture(Texels),
+    Sampler { comparison: bool },
+}
+
+/// What a texture holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Texels {
+    Depth,
+    /// Numbers that may be filtered.
+    Color,
+    Unsigned,
 }
 
 /// A struct of a shader, field by field.
@@ -125,7 +127,7 @@ impl Shader {
             let of_stage = Demand {
                 storage_buffers: count(|kind| matches!(kind, ResourceKind::Storage { .. })),
                 uniform_buffers: count(|kind| kind == ResourceKind::Uniform),
-                textures: count(|kind| matches!(kind, ResourceKind::Texture { .. })),
+                textures: count(|kind| matches!(kind, ResourceKind::Texture(_))),
                 samplers: count(|kind| matches!(kind, ResourceKind::Sampler { .. })),
                 threads: match self.stage(entry)? {
                     naga::ShaderStage::Compute => self.workgroup_threads(entry)?,
@@ -178,9 +180,14 @@ impl Shader {
                     read_only: !access.contains(StorageAccess::STORE),
                 },
                 _ => match self.module.types[global.ty].inner {
-                    TypeInner::Image { class, .. } => ResourceKind::Texture {
-                        depth: matches!(class, naga::ImageClass::Depth { .. }),
-                    },
+                    TypeInner::Image { class, .. } => ResourceKind::Texture(match class {
+                        naga::ImageClass::Depth { .. } => Texels::Depth,
+                        naga::ImageClass::Sampled {
+                            kind: naga::ScalarKind::Uint,
+                            ..
+                        } => Texels::Unsigned,
+                        _ => Texels::Color,
+                    }),
                     TypeInner::Sampler { comparison } => ResourceKind::Sampler { comparison },
                     _ => continue,
                 },

@@ -2,6 +2,7 @@
 
 use super::Outputs;
 use super::keeper::{Checkpoints, Every};
+use super::passes;
 use crate::scene::Scene;
 use crate::simulation::state::state_bytes;
 
@@ -31,7 +32,7 @@ pub fn checkpoints(scene: &Scene, outputs: &Outputs) -> (u32, u64) {
 pub fn disk_bytes(scene: &Scene, outputs: &Outputs) -> u64 {
     let pixels: f64 = scene.render.size.map(f64::from).iter().product();
     let picture = if outputs.pictures {
-        pixels * PICTURE_BYTES_PER_PIXEL
+        pixels * PICTURE_BYTES_PER_PIXEL + passes::frame_bytes(scene)
     } else {
         0.0
     };

@@ -25,6 +25,8 @@ pub struct Folder {
 #[derive(Debug, Default)]
 struct Earlier {
     pictures: Vec<String>,
+    /// Extra images.
+    passes: Vec<String>,
     particles: Vec<String>,
     /// Folders of NumPy arrays, and that of a post-mortem.
     arrays: BTreeSet<String>,
@@ -201,7 +203,10 @@ impl Folder {
             }
             let kind = match name.split(['_', '.']).next() {
                 _ if name.ends_with(".part") => continue,
-                Some("frame") => &mut earlier.pictures,
+                Some("frame") => match numbered(&name, "frame_", ".png") {
+                    Some(_) => &mut earlier.pictures,
+                    None => &mut earlier.passes,
+                },
                 Some("checkpoint") => &mut earlier.checkpoints,
                 Some("surface") => &mut earlier.surfaces,
                 Some("sensor" | "sensors") => &mut earlier.sensors,
@@ -250,6 +255,7 @@ impl std::fmt::Display for Earlier {
             |files: usize, what: &str| (files > 0).then(|| format!("{} {what}", count(files as u64)));
         let parts = counted(self.pictures.len(), "frames")
             .into_iter()
+            .chain(counted(self.passes.len(), "files of extra images"))
             .chain(counted(self.particles.len(), "particle files"))
             .chain(counted(self.arrays.len(), "folders of arrays"))
             .chain(counted(self.surfaces.len(), "surfaces"))

@@ -10,6 +10,7 @@ mod disk;
 mod disk_budget;
 mod drive;
 mod estimate;
+mod exr;
 mod folder;
 mod forecast;
 mod frame_range;
@@ -23,6 +24,7 @@ mod measure;
 mod memory;
 pub mod npy;
 mod particles;
+mod passes;
 #[cfg(feature = "plots")]
 pub mod plot;
 mod png;

@@ -23,6 +23,7 @@ use crate::physics;
 use crate::plan::{Plan, Wanted};
 use crate::scene::Scene;
 use crate::scene::column::Source;
+use crate::scene::model::ImagePass;
 use crate::simulation::frame::Frame;
 use crate::simulation::{Simulation, State};
 
@@ -69,6 +70,7 @@ pub fn redraw(
             }
             is_given &= given_color::values(&scene, &snapshot).is_some();
             refusal = refusal.and_then(|()| check_color(&scene, &snapshot, frame));
+            check_passes(&scene, &snapshot, frame)?;
             if snapshot.state.is_none() {
                 let free = scene.first_boundary().max(snapshot.particles() as u32);
                 scene.capacity = free + scene.boundary.len() as u32;
@@ -274,6 +276,20 @@ fn check_color(scene: &Scene, snapshot: &Snapshot, frame: u32) -> Result<()> {
             format!(
                 "choose another color, such as --set render.color.by=speed, or run again with --columns velocity,{column}"
             ),
+        ));
+    }
+    Ok(())
+}
+
+/// Refuses extra images and blur that need velocities where the files hold none.
+fn check_passes(scene: &Scene, snapshot: &Snapshot, frame: u32) -> Result<()> {
+    let of_velocity = [ImagePass::Velocity, ImagePass::Motion];
+    let is_wanted = scene.render.passes.iter().any(|pass| of_velocity.contains(pass));
+    if (is_wanted || scene.render.shutter > 0.0) && snapshot.column("velocity").is_none() {
+        return Err(Error::usage(
+            format!("frame {frame} tells no motion: its particle files have no velocity"),
+            "leave `velocity` and `motion` out of --passes and set no --shutter, or run again with --columns \
+             position,velocity",
         ));
     }
     Ok(())

@@ -11,6 +11,7 @@ use super::folder::Folder;
 use super::keeper::{Checkpoints, Every};
 use super::manifest::Files;
 use super::particles::{ParticleFiles, ParticleOutput};
+use super::passes::{self, PassImages};
 use super::png::Pictures;
 use super::progress::{self, Progress};
 use super::retry::{self, OnInstability};
@@ -77,6 +78,7 @@ impl Outputs {
                 name: "frame_NNNNNN.png".into(),
                 about,
             });
+            files.extend(passes::files(scene));
         }
         if self.statistics {
             let about = "one JSON object per frame; units are in its keys".into();
@@ -125,6 +127,9 @@ impl Outputs {
         if self.pictures {
             let overlay = Overlay::new(scene, scene.render.view)?;
             sinks.push(Box::new(Pictures::new(folder.clone(), overlay)));
+            if !scene.render.passes.is_empty() {
+                sinks.push(Box::new(PassImages::new(folder.clone(), scene)));
+            }
         }
         if self.statistics {
             sinks.push(Box::new(StatisticsFile::open(folder.statistics())?));

@@ -215,4 +215,14 @@ const DOMAIN_BUFFERS: &[&str] = &[
 const OTHER_BUFFERS: &[&str] = &["distance_field", "voxel_map", "collider_vertex"];
 
 /// Buffers that grow with the picture.
-const PICTURE_BUFFERS: &[&str] = &["frame_pixels", "block_depth"];
+const PICTURE_BUFFERS: &[&str] = &[
+    "frame_pixels",
+    "block_depth",
+    "blur_sum",
+    "pass_color",
+    "pass_depth",
+    "pass_normal",
+    "pass_id",
+    "pass_velocity",
+    "pass_motion",
+];

@@ -2,8 +2,9 @@
 
 use glam::{DMat3, DVec2, DVec3, Mat4, Vec4};
 
-use super::layout::Insets;
-use crate::scene::model::{Axis, Projection};
+use super::layout::{Insets, Layout};
+use crate::scene::model::{Axis, Camera, CameraPoint, Projection, View};
+use crate::scene::motion::eased;
 use crate::scene::{ColliderShape, Dimensions, Scene};
 
 /// An eye, its axes and its lens; local coordinates, metres.
@@ -20,6 +21,8 @@ pub struct Sight {
     pub shift: DVec2,
     pub near: f64,
     pub far: f64,
+    /// Along the view's axis.
+    pub target_distance: f64,
 }
 
 /// Corners of the box around the domain and every collider that is not a plane.
@@ -70,10 +73,38 @@ fn inner(insets: Insets, size: DVec2) -> (DVec2, DVec2) {
     (middle, half.max(DVec2::splat(0.2)))
 }
 
+/// The camera as its path has it at `time` seconds.
+fn at(scene: &Scene, time: f64) -> Camera {
+    let mut camera = scene.render.camera.clone();
+    let place = |of: fn(&CameraPoint) -> Option<[f64; 3]>| {
+        let points = camera.path.iter();
+        let points: Vec<(f64, DVec3)> = points
+            .filter_map(|point| Some((point.at, of(point)?.into())))
+            .collect();
+        (!points.is_empty()).then(|| eased(&points, camera.easing, time).to_array())
+    };
+    let (eye, target) = (place(|point| point.eye), place(|point| point.target));
+    camera.eye = eye.or(camera.eye);
+    camera.target = target.or(camera.target);
+    camera
+}
+
+/// What nothing that pictures of a run show is farther away than, along the view's axis, metres.
+pub fn depth_range(scene: &Scene) -> f64 {
+    let layout = Layout::new(scene, View::Scene);
+    let moments = if scene.render.camera.moves() { 240 } else { 1 };
+    let far = (0..moments).map(|k| {
+        let time = scene.file.time.duration * f64::from(k) / f64::from(moments);
+        Sight::new(scene, layout.frame, layout.insets, time).far
+    });
+    // Between these moments it may be a little farther.
+    1.02 * far.fold(0.0, f64::max)
+}
+
 impl Sight {
     /// The scene's camera at `time` seconds, for a picture of `size` pixels.
     pub fn new(scene: &Scene, size: [u32; 2], insets: Insets, time: f64) -> Self {
-        let camera = &scene.render.camera;
+        let camera = &at(scene, time);
         let size = DVec2::new(f64::from(size[0]), f64::from(size[1]));
         let (low, high) = (scene.domain.min.as_dvec3(), scene.domain.max.as_dvec3());
         let center = (low + high) * 0.5;
@@ -111,6 +142,7 @@ impl Sight {
             shift: DVec2::ZERO,
             near: 0.0,
             far: 1.0,
+            target_distance: 1.0,
         };
         let (middle, share) = inner(insets, size);
         let points = corners(low, high);
@@ -137,7 +169,17 @@ impl Sight {
             sight.turn(target, (camera.orbit * time).to_radians());
         }
         sight.clip(scene);
+        sight.target_distance = (target - sight.eye).dot(sight.forward).max(sight.near);
         sight
+    }
+
+    /// The same view through another place of the lens, so many metres to the right and up from its middle: what is in focus
+    /// stays where it is in the picture.
+    pub fn through(mut self, lens: DVec2, scene: &Scene) -> Self {
+        self.eye += self.right * lens.x + self.up * lens.y;
+        let focus = scene.render.camera.focus.unwrap_or(self.target_distance);
+        self.shift += lens / (self.half * focus);
+        self
     }
 
     fn turn(&mut self, target: DVec3, angle: f64) {

@@ -5,12 +5,14 @@
 //! of its own (`water.rs`). Nothing comes back but pixels, which [`Overlay`] finishes on an encoder thread.
 
 mod backdrop;
+pub mod blur;
 mod camera;
 mod colliders;
 mod layout;
 mod light;
 mod needs;
 mod overlay;
+pub mod passes;
 mod picture;
 mod pool_legend;
 mod stages;
@@ -20,10 +22,10 @@ pub mod ticks;
 mod water;
 mod water_stages;
 
-use glam::Vec3;
+use glam::{DVec2, Vec3};
 
 pub use backdrop::{POOL_COLORS, linear};
-pub use camera::Sight;
+pub use camera::{Sight, depth_range};
 pub use colliders::{Vertices, plane_in_box, triangles as collider_vertices};
 pub use layout::{Layout, PoolPlace, Rectangle};
 pub use needs::{DrawNeed, Needs, TextureNeed, needs};
@@ -35,8 +37,10 @@ pub use water::Water;
 
 use crate::error::{Error, Result};
 use crate::gpu::{Buffers, Gpu, Pass, Shader, Variant};
+use crate::physics::collider::offset_at;
 use crate::scene::model::View;
 use crate::scene::{Scene, color_maps};
+use blur::Blur;
 use stages::Stages;
 
 /// What the shaders of a scene's pictures are made of: the plan's variant with what pictures add.
@@ -51,6 +55,8 @@ pub struct Renderer {
     style: Style,
     /// Present where the view shows the scene.
     stages: Option<Stages>,
+    /// Present where frames are means of several pictures.
+    blur: Option<Blur>,
     /// Present where the view shows the index pool.
     paint_pool: Option<Pass>,
 }
@@ -96,6 +102,10 @@ impl Renderer {
             }
             None => None,
         };
+        let blur = match style.blurred {
+            true => Some(Blur::new(gpu, scene, &variant, buffers)?),
+            false => None,
+        };
         let paint_pool = match &layout.pool {
             Some(place) => {
                 let panel = PoolPanel::new(scene, &layout, place);
@@ -110,6 +120,7 @@ impl Renderer {
             layout,
             style,
             stages,
+            blur,
             paint_pool,
         })
     }
@@ -134,9 +145,30 @@ impl Renderer {
         offsets: &[Vec3],
     ) -> Result<()> {
         if let (Some(stages), Some(place)) = (&self.stages, self.layout.scene) {
-            let picture = Picture::new(&self.scene, &self.layout, place, &self.style, time, count);
-            let looks = colliders::looks(&self.scene.colliders, offsets);
-            stages.encode(gpu, encoder, &picture, &looks)?;
+            if let Some(blur) = &self.blur {
+                blur.begin(encoder);
+                for &moment in &blur.moments {
+                    blur.go_to(gpu, encoder, moment, count)?;
+                    let time = time + moment.after_s;
+                    let paths = self.scene.colliders.iter().map(|collider| &collider.path);
+                    let offsets: Vec<Vec3> = paths.map(|path| offset_at(path, time)).collect();
+                    let picture = self.picture(place, time, moment.lens, count);
+                    stages.encode(
+                        gpu,
+                        encoder,
+                        &picture,
+                        &colliders::looks(&self.scene.colliders, &offsets),
+                    )?;
+                }
+                blur.end(encoder, place.width * place.height);
+            }
+            // Extra images are those of the frame's own time.
+            if self.blur.is_none() || self.style.marks {
+                let picture = self.picture(place, time, DVec2::ZERO, count);
+                let looks = colliders::looks(&self.scene.colliders, offsets);
+                stages.encode(gpu, encoder, &picture, &looks)?;
+                stages.encode_passes(gpu, encoder, &self.scene, &self.layout, &picture, time)?;
+            }
         }
         if let (Some(paint), Some(place)) = (&self.paint_pool, &self.layout.pool) {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
@@ -146,6 +178,10 @@ impl Renderer {
             paint.encode(&mut pass, place.panel.width * place.panel.height);
         }
         Ok(())
+    }
+
+    fn picture(&self, place: Rectangle, time: f64, lens: DVec2, count: u32) -> Picture {
+        Picture::new(&self.scene, &self.layout, place, &self.style, time, lens, count)
     }
 
     /// Width and height of the frame, pixels.

@@ -1,8 +1,10 @@
 //! What a picture needs, before there is a device: buffers, textures, draws, each with its reason.
 
+use super::blur;
 use super::colliders;
 use super::layout::Layout;
 use super::light::SHADOW_TEXELS;
+use super::passes;
 use super::picture::{Picture, PoolPanel};
 use super::style::Style;
 use super::water;
@@ -16,6 +18,11 @@ use crate::scene::model::View;
 pub const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Half floats, which every adapter adds up.
 pub const THICKNESS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
+
+/// The same where an extra image wants its light as it is.
+const LINEAR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Marks of what pixels see.
+pub const MARK_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
 /// Pixels along a side of the blocks that hide spheres; `OCCLUSION_BLOCK` in shaders.
 pub const BLOCK: u32 = 8;
@@ -61,13 +68,19 @@ impl Needs {
             name: name.to_owned(),
             size,
             format,
-            bytes: u64::from(size[0]) * u64::from(size[1]) * if format == THICKNESS_FORMAT { 2 } else { 4 },
+            bytes: u64::from(size[0])
+                * u64::from(size[1])
+                * u64::from(format.block_copy_size(None).unwrap_or(4)),
             why: why.to_owned(),
         });
     }
 
     pub(super) fn depth_texture(&mut self, name: &str, size: [u32; 2], why: &str) {
         self.texture(name, size, DEPTH_FORMAT, why);
+    }
+
+    pub(super) fn mark_texture(&mut self, name: &str, size: [u32; 2], why: &str) {
+        self.texture(name, size, MARK_FORMAT, why);
     }
 
     pub(super) fn thickness_texture(&mut self, name: &str, size: [u32; 2], why: &str) {
@@ -154,7 +167,11 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
     }
     let samples = size.map(|side| side * scene.render.antialias);
     let why = "the scene, several samples per pixel";
-    needs.texture("scene_color", samples, COLOR_FORMAT, why);
+    let format = match style.color_pass {
+        true => LINEAR_FORMAT,
+        false => COLOR_FORMAT,
+    };
+    needs.texture("scene_color", samples, format, why);
     needs.depth_texture("scene_depth", samples, "what is in front");
     if style.shadows {
         needs.depth_texture("shadow_map", [SHADOW_TEXELS; 2], "depth from the light");
@@ -254,4 +271,6 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         "render/resolve",
         "samples to pixels, over the backdrop",
     );
+    blur::add(needs, scene, style, size);
+    passes::add(needs, scene, style, size);
 }

@@ -1,5 +1,7 @@
 //! The uniforms of the picture passes, field for field as `shaders/render/picture.wgsl` and `pool.wgsl` have them.
 
+use glam::DVec2;
+
 use super::backdrop::{Backdrop, POOL_COLORS, Rgb, backdrop, linear, packed};
 use super::camera::Sight;
 use super::layout::{Layout, Rectangle};
@@ -76,17 +78,18 @@ pub fn floor_height(scene: &Scene) -> f64 {
 }
 
 impl Picture {
-    /// The picture of `count` particles at `time` seconds.
+    /// The picture of `count` particles at `time` seconds, through a place on the lens: metres from its middle.
     pub fn new(
         scene: &Scene,
         layout: &Layout,
         place: Rectangle,
         style: &Style,
         time: f64,
+        lens: DVec2,
         count: u32,
     ) -> Self {
         let size = [place.width, place.height];
-        let sight = Sight::new(scene, size, layout.insets, time);
+        let sight = Sight::new(scene, size, layout.insets, time).through(lens, scene);
         let first = Sight::new(scene, size, layout.insets, 0.0);
         let light = Light::new(scene, &first, floor_height(scene));
         let backdrop: Backdrop = backdrop(scene.render.background);

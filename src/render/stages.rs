@@ -1,14 +1,16 @@
 //! The passes that draw the scene, in order.
 
 use super::colliders;
+use super::layout::Layout;
 use super::needs::{BLOCK, Needs};
+use super::passes::PassStages;
 use super::picture::Picture;
 use super::style::Style;
 use super::water_stages::WaterStages;
 use crate::error::Result;
 use crate::gpu::binding::Given;
 use crate::gpu::{Blend, Buffers, Draw, DrawStyle, Gpu, Kernel, Pass, Shader, Variant};
-use crate::render::needs::{COLOR_FORMAT, DrawNeed, THICKNESS_FORMAT};
+use crate::render::needs::{COLOR_FORMAT, DrawNeed, MARK_FORMAT, THICKNESS_FORMAT};
 use crate::scene::Scene;
 
 /// A draw with its vertices an instance and its instances; `None` is one per particle.
@@ -23,6 +25,7 @@ pub struct Stages {
     occluders: Option<(wgpu::TextureView, Draw, Pass)>,
     draws: Vec<Placed>,
     particles: Particles,
+    passes: Option<PassStages>,
 }
 
 /// How particles get into the picture.
@@ -36,7 +39,7 @@ enum Particles {
 }
 
 pub const STRIP: wgpu::PrimitiveTopology = wgpu::PrimitiveTopology::TriangleStrip;
-const LIST: wgpu::PrimitiveTopology = wgpu::PrimitiveTopology::TriangleList;
+pub const TRIANGLES: wgpu::PrimitiveTopology = wgpu::PrimitiveTopology::TriangleList;
 
 /// Makes the passes and draws that a picture needs.
 pub struct Maker<'a> {
@@ -120,12 +123,31 @@ impl<'a> Maker<'a> {
 
     /// A draw into a color target, or of depth alone without `blend`.
     pub fn draw(&self, label: &str, topology: wgpu::PrimitiveTopology, blend: Option<Blend>) -> Result<Draw> {
+        let format = |blend| match blend {
+            Blend::Add => THICKNESS_FORMAT,
+            Blend::Opaque | Blend::Over => self.color_format(),
+        };
+        self.draw_into(label, topology, blend.map(|blend| (format(blend), blend)))
+    }
+
+    /// A draw of marks.
+    pub fn mark(&self, label: &str, topology: wgpu::PrimitiveTopology) -> Result<Draw> {
+        self.draw_into(label, topology, Some((MARK_FORMAT, Blend::Opaque)))
+    }
+
+    fn color_format(&self) -> wgpu::TextureFormat {
+        let color = self.needs.textures.iter().find(|need| need.name == "scene_color");
+        color.map_or(COLOR_FORMAT, |need| need.format)
+    }
+
+    fn draw_into(
+        &self,
+        label: &str,
+        topology: wgpu::PrimitiveTopology,
+        color: Option<(wgpu::TextureFormat, Blend)>,
+    ) -> Result<Draw> {
         let fragment = self.need(label).fragment.as_deref();
         let shader = self.shader(label)?;
-        let color = blend.map(|blend| match blend {
-            Blend::Add => (THICKNESS_FORMAT, blend),
-            Blend::Opaque | Blend::Over => (COLOR_FORMAT, blend),
-        });
         let style = DrawStyle { color, topology };
         Draw::new(
             self.gpu,
@@ -169,14 +191,14 @@ impl Stages {
             casts.push((maker.draw("cast_splat", STRIP, None)?, 4, None));
         }
         if parts.shadows && parts.colliders {
-            let cast = maker.draw("cast_collider", LIST, None)?;
+            let cast = maker.draw("cast_collider", TRIANGLES, None)?;
             casts.push((cast, collider_vertices, Some(1)));
         }
         let opaque = Some(Blend::Opaque);
         let over = Some(Blend::Over);
         let mut draws = Vec::new();
         if parts.colliders {
-            let solid = maker.draw("place_collider", LIST, opaque)?;
+            let solid = maker.draw("place_collider", TRIANGLES, opaque)?;
             draws.push((solid, collider_vertices, Some(1)));
         }
         let splat = match parts.water {
@@ -227,6 +249,7 @@ impl Stages {
             color: maker.view("scene_color"),
             depth: maker.view("scene_depth"),
             particles,
+            passes: PassStages::new(&maker, scene, parts, buffers, collider_vertices)?,
         })
     }
 
@@ -263,10 +286,31 @@ impl Stages {
         }
         Ok(())
     }
+
+    /// Extra images, behind the picture that they belong to.
+    pub fn encode_passes(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &Scene,
+        layout: &Layout,
+        picture: &Picture,
+        time: f64,
+    ) -> Result<()> {
+        match &self.passes {
+            Some(passes) => passes.encode(gpu, encoder, scene, layout, picture, time),
+            None => Ok(()),
+        }
+    }
 }
 
 /// Copies bytes in the order of the encoder's commands, so that several frames may share a submission.
-fn upload(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, buffer: &wgpu::Buffer, bytes: &[u8]) -> Result<()> {
+pub fn upload(
+    gpu: &Gpu,
+    encoder: &mut wgpu::CommandEncoder,
+    buffer: &wgpu::Buffer,
+    bytes: &[u8],
+) -> Result<()> {
     let descriptor = wgpu::BufferDescriptor {
         label: Some("upload"),
         size: bytes.len() as u64,

@@ -4,10 +4,11 @@ use super::camera::Sight;
 use super::layout::Layout;
 use super::light::{Light, SHADOW_TEXELS};
 use super::needs::BLOCK;
+use super::passes;
 use super::picture::floor_height;
 use crate::gpu::Variant;
 use crate::scene::column::Source;
-use crate::scene::model::{Addressing, Background, Look, Splat, View};
+use crate::scene::model::{Addressing, Background, ImagePass, Look, Splat, View};
 use crate::scene::{Dimensions, Scene};
 
 /// Which parts a picture has. All are false where the view shows the pool alone.
@@ -30,6 +31,12 @@ pub struct Style {
     pub colliders: bool,
     pub domain: bool,
     pub slices: bool,
+    /// There are extra images that say what pixels see.
+    pub marks: bool,
+    /// There is an extra image of linear light.
+    pub color_pass: bool,
+    /// A frame is the mean of several pictures.
+    pub blurred: bool,
     /// Metres, as drawn.
     pub radius: f64,
 }
@@ -60,6 +67,9 @@ impl Style {
             colliders: drawn && render.show.colliders && scene.colliders.iter().any(|c| c.visible),
             domain: drawn && render.show.domain,
             slices: drawn && render.show.slices && scene.neighbors.addressing == Addressing::Sliced,
+            marks: drawn && passes::need_marks(render),
+            color_pass: drawn && render.passes.contains(&ImagePass::Color),
+            blurred: drawn && render.is_blurred(),
             radius,
         }
     }
@@ -85,6 +95,11 @@ impl Style {
             .flag("has_floor", self.floor)
             .flag("water", self.water)
             .flag("transparent", self.transparent)
+            .flag("solid_floor", self.floor && !self.transparent)
+            .flag("has_obstacles", self.colliders)
+            .flag("color_pass", self.color_pass)
+            .flag("blurred", self.blurred)
+            .role("seen_particle", self.seen_particle())
             .constant("SHADOW_TEXELS", SHADOW_TEXELS)
             .constant("OCCLUSION_BLOCK", BLOCK)
             .role("column", column);
@@ -97,6 +112,15 @@ impl Style {
             ("place_sphere", "shade_sphere")
         } else {
             ("place_disc", "fill_disc")
+        }
+    }
+
+    /// File that says where a pixel sees a particle.
+    fn seen_particle(&self) -> &'static str {
+        match (self.water, self.spheres) {
+            (true, _) => "render/passes/seen_water",
+            (_, true) => "render/passes/seen_sphere",
+            (_, false) => "render/passes/seen_disc",
         }
     }
 

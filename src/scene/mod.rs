@@ -31,7 +31,7 @@ pub mod library;
 pub mod load;
 pub mod mesh;
 pub mod model;
-mod motion;
+pub mod motion;
 pub mod npy;
 pub(crate) mod obstacles;
 pub mod particle_file;

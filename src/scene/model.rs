@@ -24,7 +24,10 @@ pub use fluid::{
 };
 pub use grains::{ContactLaw, Dashpot, GrainMaterial, Grains, MaterialPair, RollingResistance};
 pub use neighbors::{Addressing, Cell, Neighbors, SlicingAxis, Storage};
-pub use render::{Background, Camera, Color, Look, Projection, Render, Show, Splat, View, Water};
+pub use render::{
+    Background, Camera, CameraPoint, Color, Easing, ImagePass, Look, PassFiles, Projection, Render, Show,
+    Splat, View, Water,
+};
 pub use rigid::{Copies, Rigid};
 pub use sensors::{Sensor, SensorField, Side};
 

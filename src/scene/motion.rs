@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use glam::{DVec3, Vec3};
 
 use super::Collider;
+use super::model::Easing;
 
 /// Farthest that a straight piece may be off a smooth path, as a share of a particle's radius.
 const OFF: f64 = 1e-3;
@@ -90,6 +91,24 @@ pub fn smooth_path(
     }
     path.extend(last.map(|time| (time, at(time))));
     Ok(single(path))
+}
+
+/// Where a camera is on its path (seconds and metres) at a time.
+pub fn eased(points: &[(f64, DVec3)], easing: Easing, time: f64) -> DVec3 {
+    if easing == Easing::Spline && points.len() > 1 {
+        return Spline::through(points).at(time);
+    }
+    let next = points.partition_point(|(at, _)| *at <= time);
+    let piece = next.checked_sub(1).zip(points.get(next));
+    let gentle = |(last, &(end, _)): (usize, &(f64, DVec3))| {
+        let begin = points[last].0;
+        let share = (time - begin) / (end - begin);
+        begin + (end - begin) * share * share * (3.0 - 2.0 * share)
+    };
+    match easing {
+        Easing::Smooth => on_lines(points, piece.map_or(time, gentle)),
+        Easing::Linear | Easing::Spline => on_lines(points, time),
+    }
 }
 
 /// At rest before the first and after the last point.

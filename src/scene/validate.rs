@@ -21,8 +21,8 @@ use super::friction;
 use super::grain_keys;
 use super::grain_materials;
 use super::model::{
-    Addressing, DensityFrom, FluidSolver, Integrator, Look, Render, SceneFile, SlicingAxis, StartPressure,
-    Storage, Wall,
+    Addressing, Camera, CameraPoint, DensityFrom, FluidSolver, ImagePass, Integrator, Look, PassFiles,
+    Projection, Render, SceneFile, SlicingAxis, StartPressure, Storage, View, Wall,
 };
 use super::rigid;
 use super::text::number;
@@ -439,6 +439,40 @@ fn water(file: &SceneFile, frame: &Frame, report: &mut Report) {
     }
 }
 
+/// Which extra images can be made, and what can be blurred.
+fn passes(render: &Render, report: &mut Report) {
+    for (key, is_wanted) in [
+        ("render.passes", !render.passes.is_empty()),
+        ("render.shutter", render.shutter > 0.0),
+        ("render.camera.aperture", render.camera.aperture > 0.0),
+    ] {
+        if is_wanted && !render.look.follows_particles() {
+            report.problem(
+                key,
+                "this look has neither extra images nor blur",
+                "choose `splats`, `spheres` or `water`",
+            );
+        }
+    }
+    if render.passes.is_empty() {
+        return;
+    }
+    if render.view != View::Scene {
+        report.problem(
+            "render.passes",
+            "extra images show the scene alone",
+            "set render.view to `scene`, or leave render.passes out",
+        );
+    }
+    if render.pass_files == PassFiles::Png && render.passes.contains(&ImagePass::Velocity) {
+        report.problem(
+            "render.passes",
+            "PNG files cannot hold `velocity`",
+            "set render.pass_files to `exr`, or choose `motion`, which is in pixels",
+        );
+    }
+}
+
 /// Pixels along a side.
 const SMALLEST_FRAME: u32 = 16;
 const LARGEST_FRAME: u32 = 16_384;
@@ -464,6 +498,7 @@ fn render(file: &SceneFile, frame: &Frame, report: &mut Report) -> Render {
             .push("render.show.slices: this grid has no slices, so none are drawn".into());
     }
     water(file, frame, report);
+    passes(&render, report);
     render.show.caption &= render.show.overlay;
     if render.light.is_some_and(|light| light == [0.0; 3]) {
         report.problem(
@@ -499,5 +534,67 @@ fn render(file: &SceneFile, frame: &Frame, report: &mut Report) -> Render {
             "move them apart",
         );
     }
+    let is_flat = frame.dimensions == Dimensions::Two
+        || camera.axis.is_some()
+        || camera.projection == Projection::Orthographic;
+    if camera.aperture > 0.0 && is_flat {
+        report.problem(
+            "render.camera.aperture",
+            "an orthographic view has no depth of field",
+            "leave it out, or choose a perspective view",
+        );
+    }
+    camera_path(camera, frame, report);
     render
+}
+
+/// The path of a camera, in local coordinates.
+fn camera_path(camera: &mut Camera, frame: &Frame, report: &mut Report) {
+    let key = "render.camera.path";
+    let Some(first) = camera.path.first().cloned() else {
+        return;
+    };
+    let given = [
+        ("axis", camera.axis.is_some() && first.eye.is_some()),
+        ("eye", camera.eye.is_some() && first.eye.is_some()),
+        ("target", camera.target.is_some() && first.target.is_some()),
+    ];
+    for (name, _) in given.iter().filter(|(_, is_twice)| *is_twice) {
+        let what = format!("says what `render.camera.{name}` says too");
+        report.problem(key, what, "remove one of them");
+    }
+    let mut before = None;
+    for (index, point) in camera.path.iter_mut().enumerate() {
+        let key = format!("{key}[{index}]");
+        let keys = |point: &CameraPoint| (point.eye.is_some(), point.target.is_some());
+        match keys(point) {
+            (false, false) => {
+                report.problem(
+                    &key,
+                    "has neither `eye` nor `target`",
+                    "give one of them, or both",
+                );
+            }
+            own if own != keys(&first) => {
+                let help = "give `eye`, `target` or both, the same at every point";
+                report.problem(&key, "has other keys than the first point", help);
+            }
+            _ if point.eye == point.target => {
+                report.problem(&key, "`eye` and `target` are one point", "move them apart");
+            }
+            _ => {}
+        }
+        if before.is_some_and(|before| before >= point.at) {
+            let help = "put points in order of time, each at a time of its own";
+            report.problem(format!("{key}.at"), "is not later than the point before", help);
+        }
+        before = Some(point.at);
+        for place in [&mut point.eye, &mut point.target].into_iter().flatten() {
+            if let Some(far) = place.iter().find(|x| x.abs() > 1e9) {
+                let help = "give numbers between -1e9 and 1e9";
+                report.problem(&key, format!("{} is too large", number(*far)), help);
+            }
+            *place = frame.local(DVec3::from(*place)).into();
+        }
+    }
 }

@@ -14,6 +14,7 @@ use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::scene::column::Column;
 use crate::scene::field::Kind;
+use crate::scene::model::ImagePass;
 
 /// One moment of a run, on the host.
 #[derive(Debug, Clone, Default)]
@@ -46,6 +47,8 @@ pub struct Frame {
     pub lists_left_out: Option<String>,
     /// RGBA, 8 bits each, sRGB, rows from the top without padding.
     pub pixels: Option<Vec<u8>>,
+    /// Extra images, as the device wrote them: see [`crate::render::passes`].
+    pub passes: Vec<(ImagePass, Vec<u8>)>,
     pub statistics: Option<Statistics>,
     /// What sensors found since the last frame, by time.
     pub samples: Vec<Sample>,

@@ -34,6 +34,7 @@ use crate::physics::layout::{Clock, Guard, Occupancy, Overflow, Parameters, Step
 use crate::physics::{Written, bodies};
 use crate::plan::Plan;
 use crate::render::Renderer;
+use crate::render::passes::images;
 use crate::scene::{Action, Matter, Scene};
 use passes::{Kernels, Passes, Step, recorded};
 use segments::{Segment, segments};
@@ -512,6 +513,11 @@ impl Simulation {
         }
         if self.renderer.is_some() {
             add("frame_pixels", self.plan.picture_bytes);
+            // A word per pixel of the picture.
+            let pixels = self.plan.picture_bytes / 4;
+            for image in images(&self.scene.render).filter(|image| self.buffers.contains(image.buffer)) {
+                add(image.buffer, image.bytes_per_pixel * pixels);
+            }
         }
         parts
     }
@@ -581,6 +587,9 @@ impl Simulation {
             reallocations: pending.reallocations,
             lists_left_out: pending.lists_left_out,
             pixels: by_name.get("frame_pixels").map(|pixels| pixels.to_vec()),
+            passes: images(&self.scene.render)
+                .filter_map(|image| Some((image.pass, by_name.get(image.buffer)?.to_vec())))
+                .collect(),
             statistics,
             samples: by_name.get("sensor_samples").map_or_else(Vec::new, |bytes| {
                 sensors::samples(&self.scene, &pending.sampled, bytes)

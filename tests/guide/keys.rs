@@ -153,7 +153,11 @@ impl<'a> Walk<'a> {
             let about = flat(property["description"].as_str().unwrap_or_default());
             let (spoken, listed) = self.value(&inner, property);
             if let Some(listed) = listed {
-                words.push_str(&format!("\n`{key}` is one of\n\n{listed}"));
+                let each = match property["type"] == "array" {
+                    true => "Each of ",
+                    false => "",
+                };
+                words.push_str(&format!("\n{each}`{key}` is one of\n\n{listed}"));
             }
             let about = about.replace('|', "\\|");
             match self.kind {
@@ -217,7 +221,9 @@ impl<'a> Walk<'a> {
             "boolean" => "`true` or `false`".to_owned(),
             "array" => {
                 let (item, words) = self.value(&format!("{path}[]"), &schema["items"]);
-                assert!(words.is_none(), "{path}: a list of words is not told yet");
+                if words.is_some() {
+                    return ("a list of words".to_owned(), words);
+                }
                 match schema["minItems"].as_u64() {
                     Some(count) if schema["maxItems"].as_u64() == Some(count) => match item.as_str() {
                         "text" => format!("{count} texts"),

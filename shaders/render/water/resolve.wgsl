@@ -3,11 +3,10 @@
 #import common/thread
 #import render/picture
 #import render/backdrop
-#import render/pixel
+#import render/put_pixel
 #import render/water/shade
 
 var scene_color: texture_2d<f32>;
-var<storage, read_write> frame_pixels: array<u32>;
 
 @compute @workgroup_size(GROUP_SIZE)
 fn resolve_water(thread: Thread) {
@@ -37,6 +36,5 @@ fn resolve_water(thread: Thread) {
     if clear > 0.0 {
         sum += clear * backdrop(vec2f(pixel) + 0.5);
     }
-    let at = picture.rectangle.xy + pixel;
-    frame_pixels[at.y * picture.frame_width + at.x] = finished(sum / f32(n * n), pixel, 1.0);
+    put_pixel(pixel, sum / f32(n * n), 1.0);
 }

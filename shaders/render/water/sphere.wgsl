@@ -53,3 +53,16 @@ fn hit(corner: Corner) -> Hit {
     found.leaves = along + half;
     return found;
 }
+
+// The same of the part of the sphere that is within the tank's walls.
+fn hit_within_walls(corner: Corner) -> Hit {
+    var found = hit(corner);
+    let slope = select(found.direction, vec3f(1e-9), abs(found.direction) < vec3f(1e-9));
+    let low = (water.low.xyz - corner.point) / slope;
+    let high = (water.high.xyz - corner.point) / slope;
+    let nearest = min(low, high);
+    let farthest = max(low, high);
+    found.enters = max(found.enters, max(nearest.x, max(nearest.y, nearest.z)));
+    found.leaves = min(found.leaves, min(farthest.x, min(farthest.y, farthest.z)));
+    return found;
+}

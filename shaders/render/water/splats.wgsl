@@ -20,18 +20,11 @@ fn place_water_surface(@builtin(vertex_index) index: u32, @builtin(instance_inde
 // The sphere's front, cut where the domain ends: water stands flat against the walls.
 @fragment
 fn cut_water_surface(corner: Corner) -> @builtin(frag_depth) f32 {
-    let ray = hit(corner);
-    let slope = select(ray.direction, vec3f(1e-9), abs(ray.direction) < vec3f(1e-9));
-    let low = (water.low.xyz - corner.point) / slope;
-    let high = (water.high.xyz - corner.point) / slope;
-    let nearest = min(low, high);
-    let farthest = max(low, high);
-    let enters = max(ray.enters, max(nearest.x, max(nearest.y, nearest.z)));
-    let leaves = min(ray.leaves, min(farthest.x, min(farthest.y, farthest.z)));
-    if enters >= leaves {
+    let ray = hit_within_walls(corner);
+    if ray.enters >= ray.leaves {
         discard;
     }
-    let clip = picture.view_projection * vec4f(corner.point + enters * ray.direction, 1.0);
+    let clip = picture.view_projection * vec4f(corner.point + ray.enters * ray.direction, 1.0);
     return clip.z / clip.w;
 }
 

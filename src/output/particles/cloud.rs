@@ -90,6 +90,7 @@ pub mod samples {
             lists_left_out: None,
             searches: 0,
             pixels: None,
+            passes: Vec::new(),
             voxels: None,
             statistics: None,
             samples: Vec::new(),

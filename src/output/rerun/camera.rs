@@ -36,7 +36,7 @@ impl Camera {
             place: layout.scene?,
             layout,
             share,
-            turns: scene.render.camera.orbit != 0.0,
+            turns: scene.render.camera.moves(),
         })
     }
 

@@ -191,7 +191,7 @@ fn camera(text: &mut String, scene: &Scene, last: u32) {
         ];
         format!("({})", rows.join(", "))
     };
-    if scene.render.camera.orbit == 0.0 {
+    if !scene.render.camera.moves() {
         line(
             text,
             indent,

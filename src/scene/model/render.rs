@@ -30,6 +30,17 @@ pub struct Render {
     pub background: Background,
     /// What else pictures show.
     pub show: Show,
+    /// Extra images of each frame, for compositing. Text, lines, slices and water's refraction are in none but `color`.
+    pub passes: Vec<ImagePass>,
+    /// Files that extra images are written to.
+    pub pass_files: PassFiles,
+    /// Share of the time from one frame to the next during which the shutter is open, around the frame's own time: what moves
+    /// is blurred. 0 is a moment. Each frame is drawn `subframes` times.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub shutter: f64,
+    /// Pictures that a frame is the mean of, where `shutter` or `camera.aperture` blur.
+    #[schemars(range(min = 2, max = 256))]
+    pub subframes: u32,
     /// Samples along each side of a pixel.
     #[schemars(range(min = 1, max = 4))]
     pub antialias: u32,
@@ -51,9 +62,20 @@ impl Default for Render {
             camera: Camera::default(),
             background: Background::default(),
             show: Show::default(),
+            passes: Vec::new(),
+            pass_files: PassFiles::default(),
+            shutter: 0.0,
+            subframes: 16,
             antialias: 2,
             light: None,
         }
+    }
+}
+
+impl Render {
+    /// Whether a frame is the mean of several pictures.
+    pub fn is_blurred(&self) -> bool {
+        self.shutter > 0.0 || self.camera.aperture > 0.0
     }
 }
 
@@ -82,6 +104,44 @@ pub enum Look {
     /// The smooth surface of a clear liquid, which reflects the sky and refracts what lies behind it: screen-space fluid
     /// with a narrow-range filter (Truong and Yuksel 2018). Fluids in 3D have it.
     Water,
+}
+
+/// An extra image of a frame. All but `color` hold what the middle of each pixel sees.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ImagePass {
+    /// The picture without text, as linear light multiplied by its alpha.
+    Color,
+    /// Distance from the eye along the view's axis, metres.
+    Depth,
+    /// Unit normal in the scene's axes, on the eye's side.
+    Normal,
+    /// 1 + the particle's id; 4294967295 − the number of the obstacle; 0 elsewhere.
+    Id,
+    /// Velocity in the scene's axes, m/s.
+    Velocity,
+    /// Where what is seen will be in the next frame, pixels to the right and up from where it is now; with the camera's own motion.
+    Motion,
+}
+
+/// Files that extra images are written to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PassFiles {
+    /// One OpenEXR file per frame, with a layer for each image; exact values.
+    #[default]
+    Exr,
+    /// One PNG per image and frame, 16 bits per channel; `run.json` says how numbers are written. It cannot hold `velocity`.
+    Png,
+}
+
+impl Look {
+    /// Whether each picture is drawn from particles where they stand, so that there are extra images and blur.
+    pub fn follows_particles(self) -> bool {
+        match self {
+            Self::Splats | Self::Spheres | Self::Water => true,
+        }
+    }
 }
 
 /// What water looks like.
@@ -169,6 +229,54 @@ pub struct Camera {
     pub height: Option<f64>,
     /// Turn about the vertical axis through the target, degrees per simulated second.
     pub orbit: f64,
+    /// Where the eye and what it looks at are at some moments, in order of time, in place of `eye` and `target`. Before the
+    /// first and after the last moment the camera rests.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub path: Vec<CameraPoint>,
+    /// How the camera moves between the points of its path.
+    pub easing: Easing,
+    /// Diameter of the lens, metres: what is not in `focus` is blurred. 0 is a pinhole, which sees everything sharp.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub aperture: f64,
+    /// Distance along the view's axis that is sharp, metres; that of the target when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-9, max = 1e9))]
+    pub focus: Option<f64>,
+}
+
+impl Camera {
+    /// Whether it moves with time.
+    pub fn moves(&self) -> bool {
+        self.orbit != 0.0 || self.path.len() > 1
+    }
+}
+
+/// Where the camera is at a moment. Each point of a path gives the same keys.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CameraPoint {
+    /// When, seconds.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub at: f64,
+    /// Where the eye is, metres; `camera.eye` when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub eye: Option<[f64; 3]>,
+    /// What the eye looks at, metres; `camera.target` when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<[f64; 3]>,
+}
+
+/// How a camera moves between the points of its path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Easing {
+    /// Along straight lines, gently: it leaves each point from rest and comes to rest at the next.
+    #[default]
+    Smooth,
+    /// Along straight lines at a constant speed.
+    Linear,
+    /// Along a cubic spline, past the points without a stop; it begins and ends at rest.
+    Spline,
 }
 
 impl Default for Camera {
@@ -181,6 +289,10 @@ impl Default for Camera {
             field_of_view: 35.0,
             height: None,
             orbit: 0.0,
+            path: Vec::new(),
+            easing: Easing::default(),
+            aperture: 0.0,
+            focus: None,
         }
     }
 }
