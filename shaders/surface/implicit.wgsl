@@ -1,0 +1,85 @@
+// The implicit function of the particles (Zhu and Bridson 2005, Section 5): the distance of a point from the weighted mean of
+// the particles around it, less a radius. It is negative inside.
+//
+// Two things are added. No point of the surface is farther than `farthest` from a particle: between two drops the mean would
+// else be a third one. And at a side of the domain the particles are mirrored, so that the surface meets it straight, and what
+// lies beyond is cut off.
+#import common/vector
+#import physics/present
+#import <candidates>
+#import surface/surface
+
+// The particles around a point, whose places count from it.
+struct Around {
+    weight: f32, // sum
+    mean: vec3f, // weighted, m
+    nearest: vec3f, // m
+    // Of the weights: the sum of their gradients, and of the gradients times the particles' places, by row.
+    slope: vec3f,
+    moment: mat3x3f,
+}
+
+const NOBODY_NEAR: f32 = 1e18;
+
+// The side of the domain that is nearer, along each axis.
+fn nearer_side(x: vec3f) -> vec3f {
+    return select(surface.high.xyz, surface.low.xyz, x - surface.low.xyz < surface.high.xyz - x);
+}
+
+fn around_point(x: vec3f) -> Around {
+    var sum = Around(0.0, vec3f(0.0), vec3f(NOBODY_NEAR), vec3f(0.0), mat3x3f());
+    let side = nearer_side(x);
+    let is_near = abs(x - side) < vec3f(surface.reach);
+    let square = surface.reach * surface.reach;
+    var least = NOBODY_NEAR * NOBODY_NEAR;
+    for (var image = 0u; image < 8u; image++) {
+        let mirrored = (vec3u(image) & vec3u(1u, 2u, 4u)) != vec3u(0u);
+        if any(mirrored & !is_near) {
+            continue;
+        }
+        let at = select(x, 2.0 * side - x, mirrored);
+        let direction = select(vec3f(1.0), vec3f(-1.0), mirrored);
+        let home = voxel_of(at);
+        for (var k = 0u; k < RANGES; k++) {
+            let range = candidate_range(home, k);
+            for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
+                let y = direction * (unpack(position[candidate(slot)]) - at);
+                let distance = dot(y, y);
+                if distance >= square {
+                    continue;
+                }
+                let share = 1.0 - distance / square;
+                let weight = share * share * share;
+                sum.weight += weight;
+                sum.mean += weight * y;
+                if distance < least {
+                    least = distance;
+                    sum.nearest = y;
+                }
+#if surface_normals
+                let gradient = (6.0 * share * share / square) * y;
+                sum.slope += gradient;
+                sum.moment += mat3x3f(gradient * y.x, gradient * y.y, gradient * y.z);
+#end
+            }
+        }
+    }
+    if sum.weight > 0.0 {
+        sum.mean /= sum.weight;
+    }
+    return sum;
+}
+
+// Of the particles alone, m.
+fn of_particles(around: Around) -> f32 {
+    if around.weight <= 0.0 {
+        return surface.reach;
+    }
+    return max(length(around.mean) - surface.radius, length(around.nearest) - surface.farthest);
+}
+
+// How far a point is beyond the sides of the domain, m; negative inside.
+fn beyond_sides(x: vec3f) -> f32 {
+    let beyond = max(surface.low.xyz - x, x - surface.high.xyz);
+    return max(max(beyond.x, beyond.y), beyond.z);
+}
