@@ -1,6 +1,7 @@
 // A column of the particles at the vertices of the mesh: the mean by the weights of the implicit function.
 #import common/thread
 #import physics/present
+#import physics/fluid/boundary_particles
 #import <candidates>
 #import surface/surface
 
@@ -24,8 +25,11 @@ fn blend_column(thread: Thread) {
         for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
             let y = unpack(position[j]) - x;
-            let share = max(1.0 - dot(y, y) / square, 0.0);
+            let share = select(max(1.0 - dot(y, y) / square, 0.0), 0.0, is_boundary(j));
             let weight = share * share * share;
+            if weight <= 0.0 {
+                continue;
+            }
             weights += weight;
             for (var part = 0u; part < COLUMN_WIDTH; part++) {
                 sum[part] += weight * column_value[COLUMN_WIDTH * id[j] + part];

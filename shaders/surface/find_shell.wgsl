@@ -19,10 +19,11 @@ fn find_shell(thread: Thread) {
     for (var k = 0u; k < RANGES; k++) {
         let range = candidate_range(home, k);
         for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
-            let y = unpack(position[candidate(slot)]) - x;
-            let share = max(1.0 - dot(y, y) / square, 0.0);
+            let j = candidate(slot);
+            let y = unpack(position[j]) - x;
+            let share = select(max(1.0 - dot(y, y) / square, 0.0), 0.0, is_boundary(j));
             sum += share * share * share * vec4f(y, 1.0);
         }
     }
-    shell_flag[i] = u32(length(sum.xyz) > surface.deep * sum.w);
+    shell_flag[i] = u32(!is_boundary(i) && length(sum.xyz) > surface.deep * sum.w);
 }

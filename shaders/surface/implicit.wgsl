@@ -6,6 +6,7 @@
 // lies beyond is cut off.
 #import common/vector
 #import physics/present
+#import physics/fluid/boundary_particles
 #import <candidates>
 #import surface/surface
 
@@ -14,9 +15,6 @@ struct Around {
     weight: f32, // sum
     mean: vec3f, // weighted, m
     nearest: vec3f, // m
-    // Of the weights: the sum of their gradients, and of the gradients times the particles' places, by row.
-    slope: vec3f,
-    moment: mat3x3f,
 }
 
 const NOBODY_NEAR: f32 = 1e18;
@@ -27,7 +25,7 @@ fn nearer_side(x: vec3f) -> vec3f {
 }
 
 fn around_point(x: vec3f) -> Around {
-    var sum = Around(0.0, vec3f(0.0), vec3f(NOBODY_NEAR), vec3f(0.0), mat3x3f());
+    var sum = Around(0.0, vec3f(0.0), vec3f(NOBODY_NEAR));
     let side = nearer_side(x);
     let is_near = abs(x - side) < vec3f(surface.reach);
     let square = surface.reach * surface.reach;
@@ -43,9 +41,10 @@ fn around_point(x: vec3f) -> Around {
         for (var k = 0u; k < RANGES; k++) {
             let range = candidate_range(home, k);
             for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
-                let y = direction * (unpack(position[candidate(slot)]) - at);
+                let j = candidate(slot);
+                let y = direction * (unpack(position[j]) - at);
                 let distance = dot(y, y);
-                if distance >= square {
+                if distance >= square || is_boundary(j) {
                     continue;
                 }
                 let share = 1.0 - distance / square;
@@ -56,11 +55,6 @@ fn around_point(x: vec3f) -> Around {
                     least = distance;
                     sum.nearest = y;
                 }
-#if surface_normals
-                let gradient = (6.0 * share * share / square) * y;
-                sum.slope += gradient;
-                sum.moment += mat3x3f(gradient * y.x, gradient * y.y, gradient * y.z);
-#end
             }
         }
     }

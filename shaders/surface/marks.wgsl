@@ -23,7 +23,9 @@ fn next_voxel(thread: Thread) -> Coordinate {
     let number = (vec3u(item) / vec3u(1u, MARK_SIDE, MARK_SIDE * MARK_SIDE)) % vec3u(MARK_SIDE);
     let node = ceil(x - (farthest + 1.0)) + vec3f(number);
     let apart = max(abs(node - x) - 1.0, vec3f(0.0));
-    return select(Coordinate(NOBODY), Coordinate(node), dot(apart, apart) <= farthest * farthest);
+    let is_near = dot(apart, apart) <= farthest * farthest;
+    let is_in_grid = all(node >= vec3f(0.0)) && all(node < vec3f(grid.high.xyz));
+    return select(Coordinate(NOBODY), Coordinate(node), is_near && is_in_grid);
 }
 
 // Whether there is a node.

@@ -9,6 +9,7 @@ mod camera;
 mod colliders;
 mod layout;
 mod light;
+mod mesh;
 mod needs;
 mod overlay;
 mod picture;
@@ -74,7 +75,6 @@ impl Renderer {
                 buffers.make(gpu, need)?;
             }
         }
-        let variant = style.variant(scene, variant);
         let stages = match layout.scene {
             Some(_) => {
                 let map = color_maps::find(&scene.color.map).ok_or_else(|| {
@@ -92,7 +92,7 @@ impl Renderer {
                 if style.colliders {
                     buffers.write(gpu, "collider_vertex", 0, &colliders::triangles(scene))?;
                 }
-                Some(Stages::new(gpu, scene, &style, &variant, buffers, &needs)?)
+                Some(Stages::new(gpu, scene, &style, variant, buffers, &needs)?)
             }
             None => None,
         };
@@ -100,7 +100,7 @@ impl Renderer {
             Some(place) => {
                 let panel = PoolPanel::new(scene, &layout, place);
                 buffers.write(gpu, "pool_panel", 0, &[panel])?;
-                let shader = Shader::load("render/pool", &variant)?;
+                let shader = Shader::load("render/pool", &style.variant(scene, variant))?;
                 Some(Pass::new(gpu, &shader, "paint_pool", buffers)?)
             }
             None => None,
@@ -126,17 +126,18 @@ impl Renderer {
     /// Draws particles 0..`count` into `frame_pixels`. `time` is in seconds; `offsets` has each collider's present
     /// offset in metres.
     pub fn draw(
-        &self,
+        &mut self,
         gpu: &Gpu,
+        buffers: &Buffers,
         encoder: &mut wgpu::CommandEncoder,
         count: u32,
         time: f64,
         offsets: &[Vec3],
     ) -> Result<()> {
-        if let (Some(stages), Some(place)) = (&self.stages, self.layout.scene) {
+        if let (Some(stages), Some(place)) = (&mut self.stages, self.layout.scene) {
             let picture = Picture::new(&self.scene, &self.layout, place, &self.style, time, count);
             let looks = colliders::looks(&self.scene.colliders, offsets);
-            stages.encode(gpu, encoder, &picture, &looks)?;
+            stages.encode(gpu, buffers, encoder, &picture, &looks)?;
         }
         if let (Some(paint), Some(place)) = (&self.paint_pool, &self.layout.pool) {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {

@@ -3,6 +3,7 @@
 use super::colliders;
 use super::layout::Layout;
 use super::light::SHADOW_TEXELS;
+use super::mesh;
 use super::picture::{Picture, PoolPanel};
 use super::style::Style;
 use super::water;
@@ -48,7 +49,7 @@ pub struct Needs {
 }
 
 impl Needs {
-    fn uniform(&mut self, name: &str, bytes: usize, why: &str) {
+    pub(super) fn uniform(&mut self, name: &str, bytes: usize, why: &str) {
         self.buffers.push(BufferPlan::uniform(name, bytes, why));
     }
 
@@ -126,6 +127,11 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         water::add_resources(needs, scene, style, size);
     } else {
         needs.storage("color_map", 256, 4, "the color map, 256 entries");
+    }
+    if style.mesh {
+        mesh::add_resources(needs);
+    }
+    if style.splats() {
         needs.storage("splat", capacity, 4, "color and visibility of each particle");
     }
     if scene.color.column.source == Source::Given {
@@ -163,7 +169,7 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         needs.depth_texture("occluder_depth", size, "depth of what surely hides");
     }
     needs.draw(
-        style.shadows && !style.water,
+        style.shadows && style.splats(),
         "cast_splat",
         style.round_shadows.then_some("round_splat"),
         "render/cast_shadow",
@@ -191,7 +197,7 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         "the same, by blocks of pixels",
     );
     needs.draw(
-        !style.water,
+        style.splats(),
         "color_splats",
         None,
         "render/color_splats",
@@ -212,8 +218,11 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         "render/water/drops",
         "particles with few neighbors",
     );
+    if style.mesh {
+        mesh::add_draws(needs);
+    }
     needs.draw(
-        !style.water,
+        style.splats(),
         vertex,
         Some(fragment),
         style.splat_shader(),

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::kernels::Kernels;
 use super::layout::{Surface, SurfaceTotals};
-use super::{DEEP, FARTHEST, Lattice, RADIUS, REACH, Shape, cubes, voxels};
+use super::{DEEP, FARTHEST, Lattice, Shape, cubes, radius, voxels};
 use crate::error::{Error, Result};
 use crate::gpu::binding::Given;
 use crate::gpu::buffers::Usage;
@@ -114,7 +114,7 @@ impl SurfaceMaker {
         lattice: &Lattice,
         deep: f64,
     ) -> Result<Option<Mesh>> {
-        let mark_side = (2.0 * (FARTHEST * shape.spacing / shape.width + 1.0)).floor() as u32 + 1;
+        let mark_side = mark_side(shape);
         let mut work = Work::new(&self.gpu, searched, shape, lattice, deep)?;
         self.find_shell(&mut work)?;
         let marks = u64::from(work.told.shell) * u64::from(mark_side).pow(3);
@@ -123,7 +123,7 @@ impl SurfaceMaker {
                 "{marks} marks around the particles near the surface"
             )));
         }
-        let grid_bytes = self.lay_out(&mut work, shape, lattice, mark_side, marks as u32)?;
+        let grid_bytes = self.lay_out(&mut work, shape, lattice, marks as u32)?;
         let totals = self.find_cells(&mut work, marks as u32)?;
         if totals.open > 0 {
             return Ok(None);
@@ -162,17 +162,10 @@ impl SurfaceMaker {
     }
 
     /// Lays out the grid around the particles near the surface. Gives the bytes of its tables.
-    fn lay_out(
-        &mut self,
-        work: &mut Work<'_>,
-        shape: &Shape,
-        lattice: &Lattice,
-        mark_side: u32,
-        marks: u32,
-    ) -> Result<u64> {
+    fn lay_out(&mut self, work: &mut Work<'_>, shape: &Shape, lattice: &Lattice, marks: u32) -> Result<u64> {
         let mut grid = voxels::grid(lattice, shape);
         loop {
-            let layout = voxels::layout(shape.addressing, grid, mark_side, &mut work.voxel_variant);
+            let layout = voxels::layout(shape, grid, &mut work.voxel_variant);
             work.grid = Buffers::default();
             for buffer in &layout.buffers {
                 work.grid.make(&self.gpu, buffer)?;
@@ -355,10 +348,9 @@ impl<'a> Work<'a> {
         )?;
         own.create(gpu, "cube_table", 4 * table.len() as u64, Usage::Storage)?;
         own.write(gpu, "cube_table", 0, &table)?;
-        let mut voxel_variant = Variant::default();
-        voxel_variant.constant("CUBE_ROW", cubes::ROW as u32);
+        let [search_variant, voxel_variant] = variants(searched.variant, shape);
         let work = Self {
-            search_variant: particle_variant(searched.variant),
+            search_variant,
             voxel_variant,
             searched,
             own,
@@ -368,8 +360,8 @@ impl<'a> Work<'a> {
                 low: sides(0, -FAR_AWAY),
                 high: sides(1, FAR_AWAY),
                 width: shape.width as f32,
-                reach: spacings(REACH),
-                radius: spacings(RADIUS),
+                reach: shape.reach as f32,
+                radius: radius(shape.spacing, shape.reach) as f32,
                 farthest: spacings(FARTHEST),
                 deep: spacings(deep),
                 shell: 0,
@@ -405,6 +397,19 @@ fn particle_variant(search: &Variant) -> Variant {
     let mut variant = search.clone();
     variant.role("candidates", FROM_VOXELS);
     variant
+}
+
+/// Variants of the passes that look at particles, and of those that look at voxels of the surface.
+pub fn variants(search: &Variant, shape: &Shape) -> [Variant; 2] {
+    let mut voxels = Variant::default();
+    voxels.constant("CUBE_ROW", cubes::ROW as u32);
+    voxels::layout(shape, Grid::default(), &mut voxels);
+    [particle_variant(search), voxels]
+}
+
+/// Nodes along a side of the box around a particle in which it may mark some.
+pub(super) fn mark_side(shape: &Shape) -> u32 {
+    (2.0 * (FARTHEST * shape.spacing / shape.width + 1.0)).floor() as u32 + 1
 }
 
 fn blocks(items: u32) -> u32 {

@@ -14,24 +14,28 @@ use glam::Vec3;
 
 use crate::scene::model::Addressing;
 
-pub use maker::{Figures, Mesh, Searched, SurfaceMaker};
+pub use maker::{Figures, Mesh, Searched, SurfaceMaker, variants};
 
 /// Addressings that a surface can be stored by.
 pub const ADDRESSINGS: [Addressing; 3] = [Addressing::Bitmap, Addressing::Rows, Addressing::Sliced];
 
 /// From a point to the particles that have a weight there, in spacings. The farther, the smoother, and the larger are drops.
 const REACH: f64 = 2.5;
-/// From the particles' weighted mean to the surface, in spacings. Above a lattice's half space the surface is then half a
-/// spacing above the topmost particles; a particle alone gets 1.2 times its volume.
-const RADIUS: f64 = 0.663;
 /// From the nearest particle to the surface, in spacings.
-const FARTHEST: f64 = 1.0;
+const FARTHEST: f64 = 1.2;
 /// Particles whose neighbors' weighted mean is nearer, in spacings, lie deep inside.
 const DEEP: f64 = 0.15;
 
-/// The search radius that the particles of a surface need, metres.
-pub fn reach(spacing: f64) -> f64 {
+/// The search radius that suits particles so far apart, metres.
+pub fn usual_reach(spacing: f64) -> f64 {
     REACH * spacing
+}
+
+/// From the particles' weighted mean to the surface, metres. Above a lattice's half space the surface is then half a spacing
+/// above the topmost particles, for weights that reach 2 to 4 spacings. With the usual reach that is 0.66 spacings, and a
+/// particle alone gets 1.2 times its volume.
+fn radius(spacing: f64, reach: f64) -> f64 {
+    0.081 * spacing + 0.232 * reach
 }
 
 /// How a surface is made.
@@ -39,6 +43,8 @@ pub fn reach(spacing: f64) -> f64 {
 pub struct Shape {
     /// Between particles, metres.
     pub spacing: f64,
+    /// Of the particles' weights, metres: no farther than they were searched for.
+    pub reach: f64,
     /// Width of a voxel, metres.
     pub width: f64,
     pub addressing: Addressing,

@@ -1,9 +1,10 @@
 //! The grid that a surface is stored in.
 
+use super::maker::mark_side;
 use super::{Lattice, Shape};
 use crate::gpu::Variant;
 use crate::neighbors::{Grid, Room, Search};
-use crate::scene::model::{Addressing, Axis};
+use crate::scene::model::Axis;
 
 /// Entries of tables to begin with.
 const FIRST_ROOM: u32 = 1 << 16;
@@ -32,11 +33,11 @@ pub fn grid(lattice: &Lattice, shape: &Shape) -> Grid {
 }
 
 /// What lays out the voxels.
-pub fn layout(addressing: Addressing, grid: Grid, mark_side: u32, variant: &mut Variant) -> Search {
-    let search = Search::of_voxels(addressing, grid, variant);
+pub fn layout(shape: &Shape, grid: Grid, variant: &mut Variant) -> Search {
+    let search = Search::of_voxels(shape.addressing, grid, variant);
     variant
         .role("marks", "surface/marks")
         .flag("two_dimensional", false)
-        .constant("MARK_SIDE", mark_side);
+        .constant("MARK_SIDE", mark_side(shape));
     search
 }

@@ -62,13 +62,14 @@ impl OnDevice {
         let scene = Scene::of_points(
             &cloud.position,
             Dimensions::Three,
-            surface::reach(spacing),
+            surface::usual_reach(spacing),
             Neighbors::default(),
         )?;
         let local = |side: Option<f64>, axis: usize| side.map(|side| side - scene.origin[axis]);
         let sides = walls.sides();
         let shape = Shape {
             spacing,
+            reach: surface::usual_reach(spacing),
             width,
             addressing: self.addressing,
             sides: [0, 1, 2].map(|axis| sides[axis].map(|side| local(side, axis))),
