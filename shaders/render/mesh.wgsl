@@ -35,7 +35,7 @@ fn cast_mesh(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 
 // Of a polished surface where one looks straight at it, and at its rim.
 const LEAST_MIRRORED: f32 = 0.04;
-const MOST_MIRRORED: f32 = 0.5;
+const MOST_MIRRORED: f32 = 0.2;
 
 @fragment
 fn shade_mesh(corner: Corner) -> @location(0) vec4f {
