@@ -34,7 +34,7 @@
 //!   their readings mean (`src/physics/sensors.rs`).
 //! - `src/surface/`: a surface around particles, made on the device: an implicit function in the voxels of a grid of its own,
 //!   and marching cubes (`shaders/surface/`).
-//! - `src/render/`: pictures from the simulation's own buffers: splats, water (`src/render/water.rs`), colliders, slices, the
+//! - `src/render/`: pictures from the simulation's own buffers: splats, water (`src/render/water.rs`), meshes (`src/render/mesh.rs`), colliders, slices, the
 //!   pool's heatmap, legends.
 //! - `src/plan/`: scene + limits → every buffer and pass, with the reason for each. Needs no GPU. What is good enough for an
 //!   error, from what was measured (`src/plan/achieved.rs`).
