@@ -32,9 +32,11 @@
 //!   smoothing kernels (`src/physics/kernels.rs`). Buffers and shader modules that fields are made into
 //!   (`src/physics/fields.rs`). Steps whose length the device chooses (`src/physics/step_control.rs`). Probes of sensors, and what
 //!   their readings mean (`src/physics/sensors.rs`).
-//! - `src/render/`: pictures from the simulation's own buffers: splats, water (`src/render/water.rs`), colliders, slices, the
-//!   pool's heatmap, legends. Extra images for compositing (`src/render/passes.rs`), motion blur and depth of field
-//!   (`src/render/blur.rs`).
+//! - `src/surface/`: a surface around particles, made on the device: an implicit function in the voxels of a grid of its own,
+//!   and marching cubes (`shaders/surface/`).
+//! - `src/render/`: pictures from the simulation's own buffers: splats, water (`src/render/water.rs`), meshes
+//!   (`src/render/mesh.rs`), colliders, slices, the pool's heatmap, legends. Extra images for compositing
+//!   (`src/render/passes.rs`), motion blur and depth of field (`src/render/blur.rs`).
 //! - `src/plan/`: scene + limits → every buffer and pass, with the reason for each. Needs no GPU. What is good enough for an
 //!   error, from what was measured (`src/plan/achieved.rs`).
 //! - `src/simulation/`: executes a plan: steps, frames, what comes back. Grids that need more room get it
@@ -138,3 +140,4 @@ pub mod scene;
 pub mod simulation;
 #[cfg(feature = "study")]
 pub mod study;
+pub mod surface;

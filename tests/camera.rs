@@ -143,9 +143,9 @@ fn what_moves_is_blurred_along_its_way_and_stays_where_it_is() {
     // The same again, to the bit: positions are put back.
     let mut buffers = stage::buffers(&gpu, &scene, &particles);
     let variant = stage::variant(&scene);
-    let renderer =
+    let mut renderer =
         sliceflow::render::Renderer::new(&gpu, &scene, &variant, &mut buffers, View::Scene).unwrap();
-    let frames = [0, 1].map(|_| stage::frame(&gpu, &renderer, &buffers, 1, &[]));
+    let frames = [0, 1].map(|_| stage::frame(&gpu, &mut renderer, &buffers, 1, &[]));
     assert!(frames[0] == frames[1], "two frames of the same state differ");
 }
 

@@ -1,4 +1,4 @@
-//! Looks of pictures: splats, spheres, water; transparent pictures, and pictures without text. Needs an adapter; software
+//! Looks of pictures: splats, spheres, water, meshes; transparent pictures, and pictures without text. Needs an adapter; software
 //! Vulkan will do.
 
 #![cfg(feature = "cli")]
@@ -45,8 +45,8 @@ fn picture(gpu: &Gpu, scene: &Scene, neighbors: u32) -> (RgbaImage, Buffers) {
     buffers
         .write(gpu, "contacts", 0, &vec![neighbors; count as usize])
         .unwrap();
-    let renderer = Renderer::new(gpu, scene, &stage::variant(scene), &mut buffers, View::Scene).unwrap();
-    let pixels = stage::frame(gpu, &renderer, &buffers, count, &[]);
+    let mut renderer = Renderer::new(gpu, scene, &stage::variant(scene), &mut buffers, View::Scene).unwrap();
+    let pixels = stage::frame(gpu, &mut renderer, &buffers, count, &[]);
     let overlay = Overlay::new(scene, View::Scene).unwrap();
     (overlay.finish(pixels, &Caption::default()).unwrap(), buffers)
 }
@@ -185,6 +185,9 @@ fn only_water_needs_waters_textures_and_passes() {
     for part in ["water_depth", "water_thickness", "smooth_rows", "resolve_water"] {
         assert!(has("water", part), "{part}");
     }
+    for part in ["mesh_triangle", "cast_mesh", "color_mesh", "place_mesh"] {
+        assert!(has("mesh", part) && !has("water", part), "{part}");
+    }
     for part in ["splat", "occluder_depth", "color_map"] {
         assert!(!names(&plan("water")).iter().any(|name| name == part), "{part}");
     }
@@ -239,6 +242,34 @@ fn water_has_the_same_bytes_again_and_from_files() {
 }
 
 #[test]
+fn a_mesh_has_the_same_bytes_again_and_from_files_and_covers_what_spheres_cover() {
+    let place = Place::new();
+    let plain = [
+        "--no-overlay",
+        "--set",
+        "render.show.domain=false",
+        "--set",
+        "render.background=transparent",
+    ];
+    let mesh = [&plain[..], &["--look", "mesh"]].concat();
+    let first = run(&place, "first", &[&mesh[..], &["--particles", "npy"]].concat());
+    assert!(first == run(&place, "second", &mesh), "two runs differ");
+    place.told(&mut place.sliceflow(&["render", "first", "-o", "again"]), 0);
+    let again = fs::read(place.path("again/frame_000002.png")).unwrap();
+    assert!(first == again, "drawn from files it differs");
+    // Shadows are less opaque than what casts them.
+    let solid = |bytes: &[u8]| -> Vec<bool> {
+        let image = image::load_from_memory(bytes).unwrap().to_rgba8();
+        image.pixels().map(|pixel| pixel.0[3] > 200).collect()
+    };
+    let spheres = run(&place, "spheres", &[&plain[..], &["--look", "spheres"]].concat());
+    let (mesh, spheres) = (solid(&first), solid(&spheres));
+    let covered = spheres.iter().filter(|&&is_solid| is_solid).count();
+    let differ = mesh.iter().zip(&spheres).filter(|(a, b)| a != b).count();
+    assert!(covered > 1000 && 5 * differ < covered, "{differ} of {covered}");
+}
+
+#[test]
 fn transparent_pictures_have_alpha_and_no_overlay_has_no_text() {
     let place = Place::new();
     let transparent = ["--set", "render.background=transparent", "--no-overlay"];
@@ -272,7 +303,7 @@ fn words_that_do_not_exist_and_scenes_without_water_are_refused() {
     let place = Place::new();
     let told = |args: &[&str]| place.told(&mut place.sliceflow(args), 2);
     let wrong = told(&["run", "green_cube", "--look", "watter"]);
-    assert!(wrong.contains("splats, spheres, water"), "{wrong}");
+    assert!(wrong.contains("splats, spheres, water, mesh"), "{wrong}");
     let wrong = told(&["run", "harada_dam", "--set", "render.look=sphere"]);
     assert!(
         wrong.contains("render.look") && wrong.contains("spheres"),
@@ -282,6 +313,10 @@ fn words_that_do_not_exist_and_scenes_without_water_are_refused() {
     assert!(flat.contains("render.look") && flat.contains("2D"), "{flat}");
     let grains = told(&["run", "green_cube", "--look", "water"]);
     assert!(grains.contains("grains are no `water`"), "{grains}");
+    let flat = told(&["run", "dam_break_2d", "--look", "mesh"]);
+    assert!(flat.contains("`mesh` is drawn in 3D"), "{flat}");
+    let grains = told(&["run", "green_cube", "--look", "mesh"]);
+    assert!(grains.contains("grains have no `mesh`"), "{grains}");
     let color = told(&["run", "harada_dam", "--set", "render.water.color=blue"]);
     assert!(color.contains("render.water.color"), "{color}");
     let length = told(&["run", "harada_dam", "--set", "render.water.absorption_length=0"]);

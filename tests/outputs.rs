@@ -156,6 +156,24 @@ fn a_run_becomes_surfaces() {
             .contains("\nf ")
     );
     assert!(told(&mut surface(&["--radius", "0"]), 2).contains("above zero"));
+    let device = folder.path().join("device");
+    let on_device = |more: &[&str]| {
+        let mut command = surface(&["--on-device", "--out", device.to_str().unwrap()]);
+        command.args(more);
+        command
+    };
+    let text = told(&mut on_device(&[]), 0);
+    assert!(
+        text.contains("2 surfaces") && text.contains("voxels in memory"),
+        "{text}"
+    );
+    assert_eq!(
+        names(&device, "surface"),
+        ["surface_000000.ply", "surface_000002.ply"]
+    );
+    assert!(told(&mut on_device(&["--smoothing", "10"]), 2).contains("--smoothing"));
+    assert!(told(&mut on_device(&["--force", "--cube-size", "1e-6"]), 2).contains("--cube-size"));
+    assert!(told(&mut surface(&["--grid", "rows"]), 2).contains("--on-device"));
 }
 
 #[test]

@@ -129,8 +129,9 @@ fn no_sphere_that_can_be_seen_is_left_out() {
     let heap = particles(&places, &[0.5; 4000]);
     scene.capacity = heap.len() as u32;
     let mut buffers = stage::buffers(&gpu, &scene, &heap);
-    let renderer = Renderer::new(&gpu, &scene, &stage::variant(&scene), &mut buffers, View::Scene).unwrap();
-    stage::frame(&gpu, &renderer, &buffers, scene.capacity, &[]);
+    let mut renderer =
+        Renderer::new(&gpu, &scene, &stage::variant(&scene), &mut buffers, View::Scene).unwrap();
+    stage::frame(&gpu, &mut renderer, &buffers, scene.capacity, &[]);
     let splat: Vec<u32> = readback::read(&gpu, buffers.get("splat", "(test)").unwrap(), heap.len()).unwrap();
     let hidden = splat.iter().filter(|&&look| look == 0).count();
     assert!(hidden * 5 > heap.len(), "only {hidden} of {} hidden", heap.len());
@@ -257,8 +258,8 @@ fn heatmap(gpu: &Gpu, scene: &Scene, counts: &[u32]) -> (RgbaImage, [u32; 3]) {
         .unwrap();
     buffers.write(gpu, "grid", 0, &[grid]).unwrap();
     buffers.write(gpu, "voxel_count", 0, counts).unwrap();
-    let renderer = Renderer::new(gpu, scene, &stage::variant(scene), &mut buffers, View::Pool).unwrap();
-    let pixels = stage::frame(gpu, &renderer, &buffers, 1, &[]);
+    let mut renderer = Renderer::new(gpu, scene, &stage::variant(scene), &mut buffers, View::Pool).unwrap();
+    let pixels = stage::frame(gpu, &mut renderer, &buffers, 1, &[]);
     let caption = Caption {
         voxels: Some(counts.len() as u32),
         ..Caption::default()

@@ -14,6 +14,8 @@ use sliceflow::physics::layout::SHARED;
 use sliceflow::plan::{PassRow, Phase, Plan, Wanted};
 use sliceflow::scene::Scene;
 use sliceflow::scene::column::{COLUMNS, Source, find};
+use sliceflow::surface::layout::{Surface, SurfaceTotals};
+use sliceflow::surface::{self, Shape};
 
 fn wanted() -> Wanted {
     let measured = COLUMNS.iter().copied().filter(|c| c.source == Source::Measured);
@@ -380,6 +382,73 @@ fn every_planned_buffer_is_used_by_a_pass() {
         for buffer in plan.buffers.iter().filter(|b| b.usage != Usage::Indirect) {
             assert!(used.contains(&buffer.name), "no pass uses `{}`", buffer.name);
         }
+    }
+}
+
+/// Shaders of surfaces: those that look at particles, whatever search they come from, and those that look at voxels.
+#[test]
+fn every_shader_of_surfaces_is_valid_and_shares_its_structs() {
+    let of_particles = [
+        "find_shell",
+        "list_shell",
+        "evaluate_nodes",
+        "find_normals",
+        "blend_column",
+        "color_mesh",
+    ];
+    let mut scenes = vec![
+        common::fluid(3, &[]),
+        common::fluid(3, &["domain.walls=planes", "neighbors.skin=0.1"]),
+    ];
+    scenes.extend(
+        STORAGES
+            .iter()
+            .map(|row| common::scene(3, &[&format!("neighbors.storage={}", row.name)])),
+    );
+    let mut structs = Vec::new();
+    let mut load = |file: &str, variant: &Variant| match Shader::load(&format!("surface/{file}"), variant) {
+        Ok(shader) => structs.extend(shader.structs()),
+        Err(error) => panic!("{error}"),
+    };
+    for scene in &scenes {
+        let plan = Plan::new(scene, &Limits::PROMISED, &Wanted::default()).expect("a plan");
+        for addressing in surface::ADDRESSINGS {
+            let shape = Shape {
+                spacing: 1.0,
+                reach: 2.5,
+                width: 0.5,
+                addressing,
+                sides: [[None; 2]; 3],
+            };
+            let [mut particles, voxels] = surface::variants(&plan.variant, &shape);
+            particles
+                .constant("COLUMN_WIDTH", 3)
+                .role("column", "render/columns/speed");
+            for path in compose::files() {
+                match path.strip_prefix("surface/") {
+                    Some(file) if of_particles.contains(&file) => load(file, &particles),
+                    Some("implicit" | "cells" | "marks" | "surface" | "cube_table") | None => {}
+                    Some(file) => load(file, &voxels),
+                }
+            }
+        }
+    }
+    for host in [Surface::LAYOUT, SurfaceTotals::LAYOUT] {
+        let shader = structs
+            .iter()
+            .find(|known| known.name == host.name)
+            .expect("a struct");
+        let fields: Vec<_> = host
+            .fields
+            .iter()
+            .map(|&(name, offset, size)| (name.to_owned(), offset as u32, size as u32))
+            .collect();
+        assert_eq!(
+            (fields, host.size as u32),
+            (shader.fields.clone(), shader.size),
+            "{}",
+            host.name
+        );
     }
 }
 

@@ -1,7 +1,7 @@
 // Builds the bitmap behind the table of rows (build_rows.wgsl): a bit for each voxel that holds a particle, then the
 // number of bits before each word.
 #import common/workgroup_scan
-#import cells/next_voxel
+#import <marks>
 #import cells/reallocation
 #import cells/row_table
 

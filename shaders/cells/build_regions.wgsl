@@ -1,7 +1,7 @@
 // Finds the regions: columns that hold particles, and where clusters of them begin, with REGION_GAP empty columns between two
 // of them.
 #import common/workgroup_scan
-#import cells/next_voxel
+#import <marks>
 #import cells/regions
 
 // Not zero for a column that holds a particle; along u, then along w. Zero between searches.

@@ -1,7 +1,7 @@
 // Builds the table of rows: the slices' extents along w and the rows' along u by atomic minimum and maximum, their
 // places by prefix sums.
 #import common/workgroup_scan
-#import cells/next_voxel
+#import <marks>
 #import cells/reallocation
 #import cells/extent
 

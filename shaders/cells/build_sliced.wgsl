@@ -1,7 +1,7 @@
 // Builds the slices (Harada 2007, Section 5): bounding boxes by atomic minimum and maximum, then first indices by a
 // prefix sum over the slices' voxel counts (Eq. 3).
 #import common/workgroup_scan
-#import cells/next_voxel
+#import <marks>
 #import cells/reallocation
 #import cells/extent
 #if regions

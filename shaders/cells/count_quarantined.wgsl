@@ -1,5 +1,5 @@
 // Counts the particles that the search does not follow, for addressings that have no other look at all particles.
-#import cells/next_voxel
+#import <marks>
 #import cells/reallocation
 
 @compute @workgroup_size(GROUP_SIZE)

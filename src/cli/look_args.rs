@@ -2,8 +2,9 @@
 
 #[derive(clap::Args, Default)]
 pub struct LookArgs {
-    /// What the particles are drawn as: one splat each, one lit sphere each, or the smooth surface of water (fluids in 3D)
-    #[arg(long, value_parser = ["splats", "spheres", "water"])]
+    /// What the particles are drawn as: one splat each, one lit sphere each, the smooth surface of water,
+    /// or a mesh around all of them (both for fluids in 3D)
+    #[arg(long, value_parser = ["splats", "spheres", "water", "mesh"])]
     look: Option<String>,
     /// Writes extra images of each frame, for compositing: color, depth, normal, id, velocity, motion
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]

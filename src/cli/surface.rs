@@ -5,17 +5,26 @@ use std::time::Instant;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser as _};
 
+use super::device_args::DeviceArgs;
 use super::quiet_args::QuietArgs;
 use crate::error::{Error, Result};
 use crate::output::Recorded;
-use crate::output::surface::{MESH_FORMATS, MeshFormat, Sequence, SurfaceSettings, Walls, make_surfaces};
-use crate::output::text::{count, seconds};
+use crate::output::surface::{
+    MESH_FORMATS, MeshFormat, OnDevice, Sequence, SurfaceSettings, Walls, make_surfaces,
+};
+use crate::output::text::{bytes, count, seconds};
 use crate::scene::Scene;
+use crate::scene::model::Addressing;
+use crate::surface::Figures;
 
 /// Turns a run's particles into surfaces, one mesh per frame
 ///
 /// Reads the particle files that `sliceflow run --particles` has written, and writes surface_000000.ply … beside them.
 /// Made with splashsurf (Löschner et al. 2023): smoothed, closed, ended at walls. Lengths are in particle radii.
+///
+/// With --on-device the graphics adapter makes them instead: the implicit function of the particles (Zhu and Bridson 2005)
+/// is stored in a grid whose memory follows what is near the surface, and marching cubes make closed meshes of it, the same
+/// bytes every time.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -35,12 +44,25 @@ pub struct Args {
     /// Radius of a particle, metres [default: the run's]
     #[arg(long, value_name = "R", value_parser = positive)]
     radius: Option<f64>,
+    /// Makes the surfaces on the graphics adapter
+    #[arg(long, conflicts_with_all = ["smoothing_length", "threshold", "smoothing", "no_cleanup"])]
+    on_device: bool,
+    /// How --on-device stores voxels [default: bitmap]
+    #[arg(
+        long,
+        value_name = "GRID",
+        requires = "on_device",
+        value_parser = PossibleValuesParser::new(["bitmap", "rows", "sliced"]),
+    )]
+    grid: Option<String>,
+    #[command(flatten)]
+    device: DeviceArgs,
     /// Smoothing length, radii; the kernel reaches twice as far
     #[arg(long, value_name = "L", default_value = "2", value_parser = positive)]
     smoothing_length: f64,
-    /// Edge of the cubes that the surface is made from, radii; smaller is finer and slower
-    #[arg(long, value_name = "L", default_value = "0.75", value_parser = positive)]
-    cube_size: f64,
+    /// Edge of the cubes that the surface is made from, radii; smaller is finer and slower [default: 0.75, with --on-device 1]
+    #[arg(long, value_name = "L", value_parser = positive)]
+    cube_size: Option<f64>,
     /// Density on the surface, as a share of the rest density
     #[arg(long, value_name = "SHARE", default_value = "0.55", value_parser = positive)]
     threshold: f64,
@@ -71,7 +93,8 @@ Examples:
   sliceflow run bunny_pour --particles ply --out out/bunny
   sliceflow surface out/bunny
   sliceflow surface out/bunny --out out/meshes --format obj --cube-size 0.5
-  sliceflow surface out/bunny --format glb --columns velocity,pressure";
+  sliceflow surface out/bunny --format glb --columns velocity,pressure
+  sliceflow surface out/bunny --on-device --out out/device";
 
 pub fn main(args: &Args) -> Result<()> {
     let recorded = Sequence::open(&args.run)?;
@@ -96,7 +119,7 @@ pub fn main(args: &Args) -> Result<()> {
     let settings = SurfaceSettings {
         radius: args.radius,
         smoothing_length: args.smoothing_length,
-        cube_size: args.cube_size,
+        cube_size: args.cube_size.unwrap_or(if args.on_device { 1.0 } else { 0.75 }),
         threshold: args.threshold,
         smoothing: args.smoothing,
         cleanup: !args.no_cleanup,
@@ -108,7 +131,11 @@ pub fn main(args: &Args) -> Result<()> {
     };
     let scene = scene(args);
     let walls = scene.as_ref().map_or_else(Walls::default, Walls::of);
-    let made = make_surfaces(&recorded, &walls, out, &settings)?;
+    let device = match args.on_device {
+        true => Some(OnDevice::open(&args.device.adapter(), addressing(args))?),
+        false => None,
+    };
+    let made = make_surfaces(&recorded, &walls, out, &settings, device.as_ref())?;
     if !made.empty.is_empty() {
         let frames: Vec<_> = made.empty.iter().map(u32::to_string).collect();
         eprintln!(
@@ -123,7 +150,31 @@ pub fn main(args: &Args) -> Result<()> {
         count(made.triangles),
         seconds(started.elapsed().as_secs_f64())
     ));
+    if let Some(device) = &device {
+        args.quiet.tell(&cost(&device.figures(), frames as u64));
+    }
     Ok(())
+}
+
+/// What meshes on the device have cost, per frame.
+fn cost(sum: &Figures, frames: u64) -> String {
+    let mean = |sum: u64| sum / frames.max(1);
+    format!(
+        "per frame: {} of {} voxels in memory, {} where the whole box would have {}; {} on the device",
+        count(mean(sum.voxels)),
+        count(mean(sum.box_voxels)),
+        bytes(mean(sum.bytes)),
+        bytes(mean(sum.box_bytes)),
+        seconds(sum.seconds / frames.max(1) as f64)
+    )
+}
+
+fn addressing(args: &Args) -> Addressing {
+    match args.grid.as_deref() {
+        Some("rows") => Addressing::Rows,
+        Some("sliced") => Addressing::Sliced,
+        _ => Addressing::Bitmap,
+    }
 }
 
 /// The run's scene, for its walls.

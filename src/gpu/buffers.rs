@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::error::{Error, Result};
+use crate::gpu::binding::Given;
 use crate::gpu::parts::Contents;
 use crate::gpu::{BufferPlan, Gpu};
 
@@ -74,6 +75,13 @@ impl Buffers {
         self.by_name.get(name).ok_or_else(|| Error::Shader {
             message: format!("shaders/{user} binds `{name}`, but the plan has no such buffer"),
         })
+    }
+
+    /// All of them, to be given to passes that find other buffers elsewhere.
+    pub fn bindings(&self) -> Vec<Given<'_>> {
+        let all = self.by_name.iter();
+        all.map(|(name, buffer)| (name.as_str(), buffer.as_entire_binding()))
+            .collect()
     }
 
     pub fn contains(&self, name: &str) -> bool {

@@ -41,6 +41,7 @@ pub struct DrawStyle {
 pub struct Draw {
     pub label: String,
     pipeline: wgpu::RenderPipeline,
+    bindings: Bindings,
     bind_group: wgpu::BindGroup,
 }
 
@@ -110,7 +111,14 @@ impl Draw {
             label: vertex.to_owned(),
             pipeline,
             bind_group: bindings.bind(gpu, buffers, given)?,
+            bindings,
         })
+    }
+
+    /// Binds other resources from now on.
+    pub fn rebind(&mut self, gpu: &Gpu, buffers: &Buffers, given: &[Given<'_>]) -> Result<()> {
+        self.bind_group = self.bindings.bind(gpu, buffers, given)?;
+        Ok(())
     }
 
     /// Draws `vertices` for each of `instances`.

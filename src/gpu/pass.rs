@@ -74,7 +74,8 @@ impl Kernel {
         self.pass_with(gpu, buffers, &[("pass_index", element)])
     }
 
-    fn pass_with(&self, gpu: &Gpu, buffers: &Buffers, given: &[Given<'_>]) -> Result<Pass> {
+    /// A pass that binds what is in `given`, and all else from `buffers`.
+    pub fn pass_with(&self, gpu: &Gpu, buffers: &Buffers, given: &[Given<'_>]) -> Result<Pass> {
         Ok(Pass {
             label: self.label.clone(),
             pipeline: self.pipeline.clone(),

@@ -18,7 +18,35 @@ pub struct AddressingRow {
     /// How much room it takes.
     pub room: RoomRule,
     /// Adds what it needs to a search.
-    pub plan: fn(&mut Search, &Scene),
+    pub plan: fn(&mut Search, Space),
+}
+
+/// What an addressing asks about the space that voxels are in.
+#[derive(Clone, Copy)]
+pub struct Space {
+    pub dimensions: Dimensions,
+    /// Whether clusters get slices of their own.
+    pub parted: bool,
+    /// Whether the search gives up on points that are far away.
+    pub is_open: bool,
+}
+
+impl Space {
+    pub fn of(scene: &Scene) -> Self {
+        Self {
+            dimensions: scene.dimensions,
+            parted: scene.neighbors.regions,
+            is_open: scene.domain.is_open(),
+        }
+    }
+
+    /// Slabs of slices.
+    pub fn regions(self) -> u64 {
+        match self.parted {
+            true => u64::from(REGIONS_ALONG).pow(self.dimensions.count() as u32 - 1),
+            false => 1,
+        }
+    }
 }
 
 /// How much room an addressing takes.
@@ -127,7 +155,7 @@ fn morton_blocks(grid: &mut Grid, scene: &Scene) -> Room {
 }
 
 /// Points beyond the domain belong to the voxels at its border.
-fn bounded(search: &mut Search, _: &Scene) {
+fn bounded(search: &mut Search, _: Space) {
     search.flags.push("bounded");
 }
 
@@ -146,15 +174,6 @@ pub fn search_state(search: &mut Search) {
         .holding(&[SearchState::BEFORE])
         .renewed(),
     );
-}
-
-/// Slabs of slices that a scene has.
-pub fn regions(scene: &Scene) -> u64 {
-    if scene.neighbors.regions {
-        u64::from(REGIONS_ALONG).pow(scene.dimensions.count() as u32 - 1)
-    } else {
-        1
-    }
 }
 
 /// Clusters of slices get slabs of their own (Harada 2007, Section 7).
@@ -188,10 +207,10 @@ fn part_regions(search: &mut Search) {
     ]);
 }
 
-fn sliced(search: &mut Search, scene: &Scene) {
+fn sliced(search: &mut Search, space: Space) {
     search_state(search);
-    let slices = u64::from(search.grid.slices()) * regions(scene);
-    if scene.neighbors.regions {
+    let slices = u64::from(search.grid.slices()) * space.regions();
+    if space.parted {
         part_regions(search);
     }
     search.buffers.extend([
@@ -227,12 +246,12 @@ fn sliced(search: &mut Search, scene: &Scene) {
 }
 
 /// The table of rows, which `rows` and `bitmap` share.
-fn row_table(search: &mut Search, scene: &Scene) {
+fn row_table(search: &mut Search, space: Space) {
     search_state(search);
     let slices = u64::from(search.grid.slices());
     let rows = u64::from(search.grid.row_capacity);
     let build = "cells/build_rows";
-    if scene.dimensions == Dimensions::Three {
+    if space.dimensions == Dimensions::Three {
         search.buffers.extend([
             BufferPlan::storage(
                 "slice_bounds",
@@ -289,13 +308,13 @@ fn row_table(search: &mut Search, scene: &Scene) {
     ]);
 }
 
-fn rows(search: &mut Search, scene: &Scene) {
-    row_table(search, scene);
+fn rows(search: &mut Search, space: Space) {
+    row_table(search, space);
 }
 
-fn bitmap(search: &mut Search, scene: &Scene) {
+fn bitmap(search: &mut Search, space: Space) {
     search.flags.push("bitmap");
-    row_table(search, scene);
+    row_table(search, space);
     let words = u64::from(search.grid.word_capacity);
     search.buffers.extend([
         BufferPlan::storage(
@@ -323,8 +342,8 @@ fn bitmap(search: &mut Search, scene: &Scene) {
     ]);
 }
 
-fn hash(search: &mut Search, scene: &Scene) {
-    if !scene.domain.is_open() {
+fn hash(search: &mut Search, space: Space) {
+    if !space.is_open {
         return;
     }
     search_state(search);

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::Grid;
-use super::addressing::regions;
+use super::addressing::Space;
 use crate::scene::model::Addressing;
 use crate::scene::{Dimensions, Scene};
 
@@ -15,7 +15,7 @@ pub fn most_boxes(scene: &Scene, grid: &Grid) -> u32 {
     match scene.neighbors.addressing {
         Addressing::Sliced => {
             let followed = [0, 1, 2].map(|k| (grid.high[k] - grid.low[k]).max(0) as u32);
-            followed.into_iter().max().unwrap_or(0) * regions(scene) as u32
+            followed.into_iter().max().unwrap_or(0) * Space::of(scene).regions() as u32
         }
         _ => 1,
     }
@@ -26,7 +26,7 @@ pub fn record(scene: &Scene, grid: &Grid) -> Option<(&'static str, u64)> {
     match scene.neighbors.addressing {
         Addressing::Sliced => Some((
             "slice_record",
-            16 * (u64::from(grid.slices()) * regions(scene) + 1),
+            16 * (u64::from(grid.slices()) * Space::of(scene).regions() + 1),
         )),
         _ => None,
     }

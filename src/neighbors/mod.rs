@@ -22,9 +22,9 @@ use glam::Vec3;
 
 use crate::gpu::{BufferPlan, DISPATCHES, Items, PassPlan, Variant};
 use crate::scene::field::GoesOn;
-use crate::scene::model::Axis;
+use crate::scene::model::{Addressing, Axis};
 use crate::scene::{Dimensions, Scene};
-use addressing::RoomRule;
+use addressing::{RoomRule, Space};
 
 /// Shader file that gives physics its candidates straight from the voxels.
 pub const FROM_VOXELS: &str = "storage/from_voxels";
@@ -178,6 +178,7 @@ pub fn plan(scene: &Scene, grid: Grid, variant: &mut Variant) -> Search {
         .role("addressing", addressing::row(scene.neighbors.addressing).query)
         .role("storage", storage::row(scene.neighbors.storage).query)
         .role("candidates", FROM_VOXELS)
+        .role("marks", "cells/next_voxel")
         .constant("SLOTS", scene.neighbors.slots)
         .constant("REACH", grid::voxel_reach(scene))
         .flag("deterministic", scene.neighbors.deterministic);
@@ -201,9 +202,7 @@ pub fn plan(scene: &Scene, grid: Grid, variant: &mut Variant) -> Search {
             "what no step changes, for the next search",
         ));
     }
-    for flag in FLAGS {
-        variant.flag(flag, search.flags.contains(flag));
-    }
+    search.set_flags(variant);
     for &(name, value) in &search.constants {
         variant.constant(name, value);
     }
@@ -211,10 +210,43 @@ pub fn plan(scene: &Scene, grid: Grid, variant: &mut Variant) -> Search {
 }
 
 impl Search {
+    /// The voxels alone that an addressing lays out in a grid, without particles in them. The roles `<marks>` and
+    /// `<addressing>` of `variant` say which voxels there are, and how they are found: `span(voxel, 0)` is a voxel itself.
+    pub fn of_voxels(kind: Addressing, grid: Grid, variant: &mut Variant) -> Self {
+        let space = Space {
+            dimensions: Dimensions::Three,
+            parted: false,
+            is_open: true,
+        };
+        let mut search = Self::bare(grid);
+        search.address(kind, space);
+        variant
+            .role("addressing", addressing::row(kind).query)
+            .constant("REACH", 0)
+            .constant("NO_VOXEL", NO_VOXEL);
+        search.set_flags(variant);
+        search
+    }
+
     /// Everything that a scene's search has, with room for so many particles and for the voxels that `grid` says.
     fn new(scene: &Scene, grid: Grid, particles: u32) -> Self {
         let storage = storage::row(scene.neighbors.storage);
         let mut search = Self {
+            separated: storage.sorts && !scene.boundary.is_empty(),
+            goes_on: scene.goes_on(),
+            ..Self::bare(grid)
+        };
+        if search.separated {
+            search.flags.push("separated");
+        }
+        search.address(scene.neighbors.addressing, Space::of(scene));
+        (storage.plan)(&mut search, particles, &scene.neighbors);
+        search
+    }
+
+    /// What every search has.
+    fn bare(grid: Grid) -> Self {
+        Self {
             buffers: vec![
                 BufferPlan::constant("grid", &grid, "place and size of the voxels"),
                 BufferPlan::indirect(
@@ -228,19 +260,25 @@ impl Search {
             flags: Vec::new(),
             constants: Vec::new(),
             notes: Vec::new(),
-            separated: storage.sorts && !scene.boundary.is_empty(),
-            goes_on: scene.goes_on(),
+            separated: false,
+            goes_on: GoesOn::default(),
             grid,
-        };
-        if search.separated {
-            search.flags.push("separated");
         }
-        let addressing = addressing::row(scene.neighbors.addressing);
+    }
+
+    /// Adds what an addressing needs.
+    fn address(&mut self, kind: Addressing, space: Space) {
+        let addressing = addressing::row(kind);
         if matches!(addressing.room, RoomRule::Fixed(_)) {
-            search.flags.push("fixed_room");
+            self.flags.push("fixed_room");
         }
-        (addressing.plan)(&mut search, scene);
-        (storage.plan)(&mut search, particles, &scene.neighbors);
-        search
+        (addressing.plan)(self, space);
+    }
+
+    /// Decides about the flags of addressings and storages.
+    fn set_flags(&self, variant: &mut Variant) {
+        for flag in FLAGS {
+            variant.flag(flag, self.flags.contains(flag));
+        }
     }
 }

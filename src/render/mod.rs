@@ -10,6 +10,7 @@ mod camera;
 mod colliders;
 mod layout;
 mod light;
+mod mesh;
 mod needs;
 mod overlay;
 pub mod passes;
@@ -80,7 +81,6 @@ impl Renderer {
                 buffers.make(gpu, need)?;
             }
         }
-        let variant = style.variant(scene, variant);
         let stages = match layout.scene {
             Some(_) => {
                 let map = color_maps::find(&scene.color.map).ok_or_else(|| {
@@ -98,7 +98,7 @@ impl Renderer {
                 if style.colliders {
                     buffers.write(gpu, "collider_vertex", 0, &colliders::triangles(scene))?;
                 }
-                Some(Stages::new(gpu, scene, &style, &variant, buffers, &needs)?)
+                Some(Stages::new(gpu, scene, &style, variant, buffers, &needs)?)
             }
             None => None,
         };
@@ -110,7 +110,7 @@ impl Renderer {
             Some(place) => {
                 let panel = PoolPanel::new(scene, &layout, place);
                 buffers.write(gpu, "pool_panel", 0, &[panel])?;
-                let shader = Shader::load("render/pool", &variant)?;
+                let shader = Shader::load("render/pool", &style.variant(scene, variant))?;
                 Some(Pass::new(gpu, &shader, "paint_pool", buffers)?)
             }
             None => None,
@@ -137,14 +137,17 @@ impl Renderer {
     /// Draws particles 0..`count` into `frame_pixels`. `time` is in seconds; `offsets` has each collider's present
     /// offset in metres.
     pub fn draw(
-        &self,
+        &mut self,
         gpu: &Gpu,
+        buffers: &Buffers,
         encoder: &mut wgpu::CommandEncoder,
         count: u32,
         time: f64,
         offsets: &[Vec3],
     ) -> Result<()> {
-        if let (Some(stages), Some(place)) = (&self.stages, self.layout.scene) {
+        if let (Some(stages), Some(place)) = (&mut self.stages, self.layout.scene) {
+            let picture =
+                |time, lens| Picture::new(&self.scene, &self.layout, place, &self.style, time, lens, count);
             if let Some(blur) = &self.blur {
                 blur.begin(encoder);
                 for &moment in &blur.moments {
@@ -152,9 +155,10 @@ impl Renderer {
                     let time = time + moment.after_s;
                     let paths = self.scene.colliders.iter().map(|collider| &collider.path);
                     let offsets: Vec<Vec3> = paths.map(|path| offset_at(path, time)).collect();
-                    let picture = self.picture(place, time, moment.lens, count);
+                    let picture = picture(time, moment.lens);
                     stages.encode(
                         gpu,
+                        buffers,
                         encoder,
                         &picture,
                         &colliders::looks(&self.scene.colliders, &offsets),
@@ -164,9 +168,9 @@ impl Renderer {
             }
             // Extra images are those of the frame's own time.
             if self.blur.is_none() || self.style.marks {
-                let picture = self.picture(place, time, DVec2::ZERO, count);
+                let picture = picture(time, DVec2::ZERO);
                 let looks = colliders::looks(&self.scene.colliders, offsets);
-                stages.encode(gpu, encoder, &picture, &looks)?;
+                stages.encode(gpu, buffers, encoder, &picture, &looks)?;
                 stages.encode_passes(gpu, encoder, &self.scene, &self.layout, &picture, time)?;
             }
         }
@@ -178,10 +182,6 @@ impl Renderer {
             paint.encode(&mut pass, place.panel.width * place.panel.height);
         }
         Ok(())
-    }
-
-    fn picture(&self, place: Rectangle, time: f64, lens: DVec2, count: u32) -> Picture {
-        Picture::new(&self.scene, &self.layout, place, &self.style, time, lens, count)
     }
 
     /// Width and height of the frame, pixels.

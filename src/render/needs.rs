@@ -4,6 +4,7 @@ use super::blur;
 use super::colliders;
 use super::layout::Layout;
 use super::light::SHADOW_TEXELS;
+use super::mesh;
 use super::passes;
 use super::picture::{Picture, PoolPanel};
 use super::style::Style;
@@ -55,7 +56,7 @@ pub struct Needs {
 }
 
 impl Needs {
-    fn uniform(&mut self, name: &str, bytes: usize, why: &str) {
+    pub(super) fn uniform(&mut self, name: &str, bytes: usize, why: &str) {
         self.buffers.push(BufferPlan::uniform(name, bytes, why));
     }
 
@@ -139,6 +140,11 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         water::add_resources(needs, scene, style, size);
     } else {
         needs.storage("color_map", 256, 4, "the color map, 256 entries");
+    }
+    if style.mesh {
+        mesh::add_resources(needs);
+    }
+    if style.splats() {
         needs.storage("splat", capacity, 4, "color and visibility of each particle");
     }
     if scene.color.column.source == Source::Given {
@@ -180,7 +186,7 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         needs.depth_texture("occluder_depth", size, "depth of what surely hides");
     }
     needs.draw(
-        style.shadows && !style.water,
+        style.shadows && style.splats(),
         "cast_splat",
         style.round_shadows.then_some("round_splat"),
         "render/cast_shadow",
@@ -208,7 +214,7 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         "the same, by blocks of pixels",
     );
     needs.draw(
-        !style.water,
+        style.splats(),
         "color_splats",
         None,
         "render/color_splats",
@@ -229,8 +235,11 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         "render/water/drops",
         "particles with few neighbors",
     );
+    if style.mesh {
+        mesh::add_draws(needs);
+    }
     needs.draw(
-        !style.water,
+        style.splats(),
         vertex,
         Some(fragment),
         style.splat_shader(),

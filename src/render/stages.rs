@@ -2,6 +2,7 @@
 
 use super::colliders;
 use super::layout::Layout;
+use super::mesh::{self, MeshStages};
 use super::needs::{BLOCK, Needs};
 use super::passes::PassStages;
 use super::picture::Picture;
@@ -26,13 +27,14 @@ pub struct Stages {
     draws: Vec<Placed>,
     particles: Particles,
     passes: Option<PassStages>,
+    mesh: Option<Box<MeshStages>>,
 }
 
 /// How particles get into the picture.
 enum Particles {
-    /// As splats among the draws: their colors before these, the samples' average after them.
-    Splats {
-        color: Pass,
+    /// As splats or a mesh among the draws: splats' colors before these, the samples' average after them.
+    Drawn {
+        color: Option<Pass>,
         resolve: Pass,
     },
     Water(Box<WaterStages>),
@@ -40,6 +42,24 @@ enum Particles {
 
 pub const STRIP: wgpu::PrimitiveTopology = wgpu::PrimitiveTopology::TriangleStrip;
 pub const TRIANGLES: wgpu::PrimitiveTopology = wgpu::PrimitiveTopology::TriangleList;
+
+const SHADOW_MAP: &str = "shadow_map";
+const SHADOW_SAMPLER: &str = "shadow_sampler";
+
+/// The shadow map, and how it is read.
+pub struct ShadowReader {
+    map: wgpu::TextureView,
+    sampler: wgpu::Sampler,
+}
+
+impl ShadowReader {
+    pub fn given(&self) -> [Given<'_>; 2] {
+        [
+            (SHADOW_MAP, wgpu::BindingResource::TextureView(&self.map)),
+            (SHADOW_SAMPLER, wgpu::BindingResource::Sampler(&self.sampler)),
+        ]
+    }
+}
 
 /// Makes the passes and draws that a picture needs.
 pub struct Maker<'a> {
@@ -106,10 +126,17 @@ impl<'a> Maker<'a> {
         views
             .map(|(name, view)| (*name, wgpu::BindingResource::TextureView(view)))
             .chain([(
-                "shadow_sampler",
+                SHADOW_SAMPLER,
                 wgpu::BindingResource::Sampler(&self.shadow_sampler),
             )])
             .collect()
+    }
+
+    /// What reads shadows besides buffers, to be bound anew: none where there are none.
+    pub fn shadow_reader(&self) -> Option<ShadowReader> {
+        let map = self.find(SHADOW_MAP)?;
+        let sampler = self.shadow_sampler.clone();
+        Some(ShadowReader { map, sampler })
     }
 
     fn need(&self, label: &str) -> &DrawNeed {
@@ -160,6 +187,11 @@ impl<'a> Maker<'a> {
         )
     }
 
+    /// A compute pass that binds something else in each frame.
+    pub fn kernel(&self, label: &str) -> Result<Kernel> {
+        Kernel::new(self.gpu, &self.shader(label)?, label)
+    }
+
     pub fn compute(&self, label: &str) -> Result<Pass> {
         let shader = self.shader(label)?;
         Pass::with_textures(self.gpu, &shader, label, self.buffers, &self.given())
@@ -176,18 +208,29 @@ impl Stages {
         gpu: &Gpu,
         scene: &Scene,
         parts: &Style,
-        variant: &Variant,
+        plan: &Variant,
         buffers: &Buffers,
         needs: &Needs,
     ) -> Result<Self> {
-        let maker = Maker::new(gpu, variant, buffers, needs)?;
+        let variant = parts.variant(scene, plan);
+        let maker = Maker::new(gpu, &variant, buffers, needs)?;
         let collider_vertices = if parts.colliders {
             colliders::triangles(scene).len() as u32 / 2
         } else {
             0
         };
-        let mut casts = Vec::new();
-        if parts.shadows && !parts.water {
+        let (mut casts, mut draws) = (Vec::new(), Vec::new());
+        let mesh = match parts.mesh {
+            true => {
+                // Both stand first, where each frame finds them.
+                let [solid, cast] = mesh::draws(&maker)?;
+                draws.push(solid);
+                casts.push(cast);
+                Some(Box::new(MeshStages::new(gpu, scene, plan, &maker)?))
+            }
+            false => None,
+        };
+        if parts.shadows && parts.splats() {
             casts.push((maker.draw("cast_splat", STRIP, None)?, 4, None));
         }
         if parts.shadows && parts.colliders {
@@ -196,16 +239,17 @@ impl Stages {
         }
         let opaque = Some(Blend::Opaque);
         let over = Some(Blend::Over);
-        let mut draws = Vec::new();
         if parts.colliders {
             let solid = maker.draw("place_collider", TRIANGLES, opaque)?;
             draws.push((solid, collider_vertices, Some(1)));
         }
-        let splat = match parts.water {
-            true => "place_water_drop",
-            false => parts.splat_entries().0,
-        };
-        draws.push((maker.draw(splat, STRIP, opaque)?, 4, None));
+        if !parts.mesh {
+            let splat = match parts.water {
+                true => "place_water_drop",
+                false => parts.splat_entries().0,
+            };
+            draws.push((maker.draw(splat, STRIP, opaque)?, 4, None));
+        }
         if parts.domain {
             let edges = if parts.three_dimensional { 12 } else { 4 };
             let lines = maker.draw("place_domain_edge", STRIP, opaque)?;
@@ -235,27 +279,32 @@ impl Stages {
         };
         let particles = match parts.water {
             true => Particles::Water(Box::new(WaterStages::new(&maker)?)),
-            false => Particles::Splats {
-                color: maker.compute("color_splats")?,
+            false => Particles::Drawn {
+                color: parts
+                    .splats()
+                    .then(|| maker.compute("color_splats"))
+                    .transpose()?,
                 resolve: maker.compute("resolve")?,
             },
         };
         Ok(Self {
             picture: buffers.get("picture", "render/picture.wgsl")?.clone(),
             collider_look,
-            shadows: maker.find("shadow_map").map(|view| (view, casts)),
+            shadows: maker.find(SHADOW_MAP).map(|view| (view, casts)),
             occluders,
             draws,
             color: maker.view("scene_color"),
             depth: maker.view("scene_depth"),
             particles,
             passes: PassStages::new(&maker, scene, parts, buffers, collider_vertices)?,
+            mesh,
         })
     }
 
     pub fn encode(
-        &self,
+        &mut self,
         gpu: &Gpu,
+        buffers: &Buffers,
         encoder: &mut wgpu::CommandEncoder,
         picture: &Picture,
         looks: &[[f32; 4]],
@@ -265,6 +314,13 @@ impl Stages {
             upload(gpu, encoder, buffer, bytemuck::cast_slice(looks))?;
         }
         let [_, _, width, height] = picture.rectangle;
+        if let Some(mesh) = &mut self.mesh {
+            let mut draws = vec![&mut self.draws[0]];
+            draws.extend(self.shadows.as_mut().map(|(_, casts)| &mut casts[0]));
+            if let Some((color, vertices)) = mesh.make(gpu, buffers, picture.count, &mut draws)? {
+                dispatch(encoder, &color, vertices);
+            }
+        }
         if let Some((view, casts)) = &self.shadows {
             draw_all(encoder, "cast_shadows", Target::Depth(view), casts, picture.count);
         }
@@ -275,13 +331,16 @@ impl Stages {
             }
             dispatch(encoder, find, width.div_ceil(BLOCK) * height.div_ceil(BLOCK));
         }
-        if let Particles::Splats { color, .. } = &self.particles {
+        if let Particles::Drawn {
+            color: Some(color), ..
+        } = &self.particles
+        {
             dispatch(encoder, color, picture.count);
         }
         let target = Target::Both(&self.color, &self.depth);
         draw_all(encoder, "draw_scene", target, &self.draws, picture.count);
         match &self.particles {
-            Particles::Splats { resolve, .. } => dispatch(encoder, resolve, width * height),
+            Particles::Drawn { resolve, .. } => dispatch(encoder, resolve, width * height),
             Particles::Water(stages) => stages.encode(encoder, picture),
         }
         Ok(())

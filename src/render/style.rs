@@ -7,6 +7,7 @@ use super::needs::BLOCK;
 use super::passes;
 use super::picture::floor_height;
 use crate::gpu::Variant;
+use crate::neighbors::FROM_VOXELS;
 use crate::scene::column::Source;
 use crate::scene::model::{Addressing, Background, ImagePass, Look, Splat, View};
 use crate::scene::{Dimensions, Scene};
@@ -19,6 +20,8 @@ pub struct Style {
     pub spheres: bool,
     /// The surface of water in place of spheres or discs.
     pub water: bool,
+    /// A surface around the particles in place of spheres or discs.
+    pub mesh: bool,
     /// Nothing behind the scene, so that pictures have alpha.
     pub transparent: bool,
     /// Spheres and colliders cast shadows.
@@ -48,20 +51,22 @@ impl Style {
         let three_dimensional = scene.dimensions == Dimensions::Three;
         let spheres = render.splat == Splat::Sphere || render.look == Look::Spheres;
         let water = drawn && render.look == Look::Water;
+        let mesh = drawn && render.look == Look::Mesh;
         let radius = scene.radius() * render.splat_scale;
         let layout = Layout::new(scene, view);
         let round_shadows = layout.scene.is_some_and(|place| {
             let sight = Sight::new(scene, [place.width, place.height], layout.insets, 0.0);
             radius > 3.0 * Light::new(scene, &sight, floor_height(scene)).texel
         });
-        let solid = drawn && three_dimensional && (spheres || water);
+        let solid = drawn && three_dimensional && (spheres || water || mesh);
         Self {
             three_dimensional,
             spheres,
             water,
+            mesh,
             transparent: render.background == Background::Transparent,
             shadows: solid,
-            occlusion: solid && !water,
+            occlusion: solid && !water && !mesh,
             round_shadows,
             floor: drawn && three_dimensional && render.show.floor,
             colliders: drawn && render.show.colliders && scene.colliders.iter().any(|c| c.visible),
@@ -103,7 +108,16 @@ impl Style {
             .constant("SHADOW_TEXELS", SHADOW_TEXELS)
             .constant("OCCLUSION_BLOCK", BLOCK)
             .role("column", column);
+        if self.mesh {
+            // Its vertices are no particles, and have no lists.
+            variant.role("candidates", FROM_VOXELS);
+        }
         variant
+    }
+
+    /// Whether each particle is drawn as a sphere or a disc.
+    pub fn splats(&self) -> bool {
+        !self.water && !self.mesh
     }
 
     /// Vertex and fragment entry point of the splats.

@@ -88,7 +88,7 @@ impl Water {
 }
 
 /// Lower and upper end of what walls enclose, metres; 1e9 on sides that are open.
-fn walls(scene: &Scene) -> [[f32; 3]; 2] {
+pub fn walls(scene: &Scene) -> [[f32; 3]; 2] {
     let domain = &scene.domain;
     let end = |side: usize| {
         let (place, far) = match side {

@@ -415,19 +415,25 @@ fn neighbors(file: &SceneFile, frame: &Frame, report: &mut Report) -> Neighbors 
 /// Of sensors, from one frame to the next.
 const MOST_SAMPLES: f64 = 1e5;
 
-/// Which scenes can be drawn as water, and its color.
+/// Which scenes can be drawn as water or with a mesh, and the color of water.
 fn water(file: &SceneFile, frame: &Frame, report: &mut Report) {
     let help = "choose `splats` or `spheres`";
-    let is_drawn = file.render.look == Look::Water;
-    if is_drawn && frame.dimensions == Dimensions::Two {
-        report.problem(
-            "render.look",
-            "`water` is drawn in 3D, and this scene is 2D",
-            help,
-        );
-    }
-    if is_drawn && file.fluid.is_none() {
-        report.problem("render.look", "grains are no `water`", help);
+    let (look, of_grains) = match file.render.look {
+        Look::Water => (Some("water"), "grains are no `water`"),
+        Look::Mesh => (
+            Some("mesh"),
+            "grains have no `mesh`: it is the surface of a fluid",
+        ),
+        Look::Splats | Look::Spheres => (None, ""),
+    };
+    if let Some(look) = look {
+        if frame.dimensions == Dimensions::Two {
+            let what = format!("`{look}` is drawn in 3D, and this scene is 2D");
+            report.problem("render.look", what, help);
+        }
+        if file.fluid.is_none() {
+            report.problem("render.look", of_grains, help);
+        }
     }
     let color = &file.render.water.color;
     if color_maps::parse_hex(color).is_none() {

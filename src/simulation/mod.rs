@@ -422,7 +422,7 @@ impl Simulation {
                 }
             }
         }
-        if let Some(renderer) = &self.renderer {
+        if let Some(renderer) = &mut self.renderer {
             let time = f64::from(index) / self.scene.time.fps;
             let offsets: Vec<Vec3> = self
                 .scene
@@ -430,7 +430,7 @@ impl Simulation {
                 .iter()
                 .map(|c| offset_at(&c.path, time))
                 .collect();
-            renderer.draw(&self.gpu, &mut encoder, self.count, time, &offsets)?;
+            renderer.draw(&self.gpu, &self.buffers, &mut encoder, self.count, time, &offsets)?;
         }
 
         let parts = self.parts(index);

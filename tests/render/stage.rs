@@ -160,11 +160,11 @@ pub fn variant(scene: &Scene) -> Variant {
 /// One frame with everything laid over; `scene.capacity` must be the number of particles.
 pub fn picture(gpu: &Gpu, scene: &Scene, particles: &Particles) -> RgbaImage {
     let mut buffers = buffers(gpu, scene, particles);
-    let renderer = Renderer::new(gpu, scene, &variant(scene), &mut buffers, View::Scene).unwrap();
+    let mut renderer = Renderer::new(gpu, scene, &variant(scene), &mut buffers, View::Scene).unwrap();
     let count = particles.len() as u32;
     let pixels = frame(
         gpu,
-        &renderer,
+        &mut renderer,
         &buffers,
         count,
         &vec![Vec3::ZERO; scene.colliders.len()],
@@ -181,9 +181,11 @@ pub fn picture(gpu: &Gpu, scene: &Scene, particles: &Particles) -> RgbaImage {
         .unwrap()
 }
 
-pub fn frame(gpu: &Gpu, renderer: &Renderer, buffers: &Buffers, count: u32, offsets: &[Vec3]) -> Vec<u8> {
+pub fn frame(gpu: &Gpu, renderer: &mut Renderer, buffers: &Buffers, count: u32, offsets: &[Vec3]) -> Vec<u8> {
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    renderer.draw(gpu, &mut encoder, count, 0.0, offsets).unwrap();
+    renderer
+        .draw(gpu, buffers, &mut encoder, count, 0.0, offsets)
+        .unwrap();
     gpu.queue.submit([encoder.finish()]);
     let [width, height] = renderer.size();
     let bytes = (width * height * 4) as usize;

@@ -1,8 +1,9 @@
-//! Surfaces of a run's particles: marching cubes over a smoothed density (Löschner et al. 2023, `splashsurf_lib`), a
-//! mesh a frame.
+//! Surfaces of a run's particles, one mesh per frame: marching cubes over a smoothed density (Löschner et al. 2023,
+//! `splashsurf_lib`), or what the device makes ([`crate::surface`]).
 
 mod glb;
 mod mesh_file;
+mod on_device;
 mod reconstruct;
 mod sequence;
 mod walls;
@@ -21,6 +22,7 @@ use crate::error::{Error, Result};
 use crate::files;
 
 pub use mesh_file::{MESH_FORMATS, MeshFormat};
+pub use on_device::OnDevice;
 use reconstruct::{Cloud, reconstruct};
 pub use sequence::Sequence;
 pub use walls::Walls;
@@ -87,16 +89,18 @@ impl VertexColumn {
     }
 }
 
-/// Makes a mesh of each frame that has particle files. Ends early, with what is done, after Ctrl-C.
+/// Makes a mesh of each frame that has particle files, by splashsurf or by a device. Ends early, with what is done, after
+/// Ctrl-C.
 pub fn make_surfaces(
     recorded: &Sequence,
     walls: &Walls,
     out: &Path,
     settings: &SurfaceSettings,
+    device: Option<&OnDevice>,
 ) -> Result<Made> {
     let target = |frame: u32| out.join(format!("surface_{frame:06}.{}", settings.format.name));
     let reach = 2.0 * settings.smoothing_length;
-    if settings.cube_size > reach {
+    if device.is_none() && settings.cube_size > reach {
         return Err(Error::usage(
             format!(
                 "cubes of {} radii are larger than what the kernel reaches, {reach} radii",
@@ -149,7 +153,14 @@ pub fn make_surfaces(
         }
         let radius = settings.radius.unwrap_or(recorded.radius);
         let cloud = read(*frame, file, settings.columns.as_deref())?;
-        let triangles = match surface(&cloud, file, radius, walls, settings)? {
+        let mesh = match device {
+            Some(device) => {
+                let (spacing, width) = (2.0 * radius, settings.cube_size * radius);
+                device.reconstruct(&cloud, spacing, width, walls, settings.normals)?
+            }
+            None => surface(&cloud, file, radius, walls, settings)?,
+        };
+        let triangles = match mesh {
             Some(mesh) => {
                 disk::write(&target(*frame), &(settings.format.encode)(&mesh))?;
                 mesh.triangles.len() as u64

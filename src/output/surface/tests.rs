@@ -2,9 +2,12 @@ use std::collections::HashMap;
 use std::f64::consts::PI;
 
 use super::*;
+use crate::gpu::AdapterChoice;
 use crate::output::npy;
 use crate::scene::load::parse;
 use crate::scene::mesh::Mesh;
+use crate::scene::model::Addressing;
+use crate::surface::Figures;
 
 const RADIUS: f64 = 0.025;
 /// Metres; far from zero, where single precision would show steps.
@@ -114,6 +117,119 @@ fn a_ball_is_closed_faces_outward_and_has_its_volume() {
         assert!((from_center.length() - SIZE).abs() < RADIUS, "{from_center}");
         let outward = from_center.normalize().as_vec3().dot((*normal).into());
         assert!(outward > 0.9, "{outward}");
+    }
+}
+
+/// The device's mesh, with voxels as wide as half a spacing.
+fn on_device(cloud: &Cloud, walls: &Walls, addressing: Addressing) -> (SurfaceMesh, Figures) {
+    let device = OnDevice::open(&AdapterChoice::Best, addressing).unwrap();
+    let mesh = device.reconstruct(cloud, 2.0 * RADIUS, RADIUS, walls, true);
+    (mesh.unwrap().unwrap(), device.figures())
+}
+
+#[test]
+fn a_device_makes_a_ball_that_is_closed_faces_outward_and_has_its_volume() {
+    let (mesh, figures) = on_device(&ball(), &Walls::default(), Addressing::Bitmap);
+    let share = volume(&mesh) / (4.0 / 3.0 * PI * SIZE.powi(3));
+    assert!((share - 1.0).abs() < 0.02, "{share}");
+    for (vertex, normal) in mesh.vertices.iter().zip(&mesh.normals) {
+        let from_center = *vertex - CENTER;
+        assert!((from_center.length() - SIZE).abs() < RADIUS, "{from_center}");
+        let outward = from_center.normalize().as_vec3().dot((*normal).into());
+        assert!(outward > 0.9, "{outward}");
+    }
+    // Nothing is kept of the inside.
+    assert!(figures.voxels < figures.box_voxels / 2, "{figures:?}");
+    assert!(figures.bytes < figures.box_bytes, "{figures:?}");
+}
+
+#[test]
+fn a_device_makes_a_box_in_the_air_with_its_volume() {
+    let (mesh, _) = on_device(
+        &lattice([20, 20, 20], |_| true),
+        &Walls::default(),
+        Addressing::Bitmap,
+    );
+    let share = volume(&mesh) / (2.0 * SIZE).powi(3);
+    assert!((share - 1.0).abs() < 0.02, "{share}");
+}
+
+/// A voxel in memory between two slices, rows or words would be a seam or an island.
+#[test]
+fn a_devices_mesh_is_the_same_whatever_stores_it_and_in_every_run() {
+    let mut cloud = ball();
+    // A sheet, drops and a strand besides, so that cells are cut in all ways.
+    let step = 2.0 * RADIUS;
+    for i in 0..20 {
+        let at = f64::from(i) * step;
+        cloud.position.push(CENTER + DVec3::new(at - 0.5, 0.7, 0.02 * at));
+        cloud.position.extend(
+            (0..12).map(|k| CENTER + DVec3::new(0.8 + 0.1 * at, at - 0.5, f64::from(k) * step - 0.3)),
+        );
+        cloud
+            .position
+            .push(CENTER + DVec3::new(-0.9, 1.6 * at - 0.8, 0.3 * at * at));
+    }
+    let speeds = cloud.position.iter().flat_map(|p| [p.y as f32, 0.0, 0.0]);
+    cloud.columns[0].values = speeds.collect();
+    let encode = settings("ply").format.encode;
+    let walls = Walls::default();
+    let (mesh, figures) = on_device(&cloud, &walls, Addressing::Bitmap);
+    let first = encode(&mesh);
+    assert!(volume(&mesh) > 0.0);
+    assert!(
+        encode(&on_device(&cloud, &walls, Addressing::Bitmap).0) == first,
+        "two runs"
+    );
+    for addressing in [Addressing::Rows, Addressing::Sliced] {
+        let (mesh, larger) = on_device(&cloud, &walls, addressing);
+        assert!(encode(&mesh) == first, "{addressing:?}");
+        assert!(larger.voxels > figures.voxels, "{addressing:?}: {larger:?}");
+    }
+}
+
+#[test]
+fn a_devices_tank_at_rest_ends_at_its_walls_and_has_its_volume() {
+    let scene = parse(TANK, "tank", Path::new("."), &["colliders=[]".into()]).unwrap();
+    let (low, high) = (DVec3::new(100.0, 0.0, 0.0), DVec3::new(101.0, 9.0, 0.6));
+    let mut cloud = lattice([20, 10, 12], |_| true);
+    cloud.position.iter_mut().for_each(|p| *p += low);
+    let (mesh, _) = on_device(&cloud, &Walls::of(&scene), Addressing::Bitmap);
+    let share = volume(&mesh) / 0.3;
+    assert!((share - 1.0).abs() < 0.01, "{share}");
+    let beyond = |v: &DVec3| (low - *v).max(*v - high).max_element();
+    let worst = mesh.vertices.iter().map(beyond).fold(0.0, f64::max);
+    assert!(worst < 1e-3 * RADIUS, "{worst} m");
+}
+
+/// Distances in radii of a particle.
+#[test]
+fn a_devices_mesh_is_where_splashsurf_has_it() {
+    let cloud = ball();
+    let (mesh, _) = on_device(&cloud, &Walls::default(), Addressing::Bitmap);
+    let other = made(&cloud, &Walls::default(), &settings("ply"));
+    let nearest = |from: &DVec3| {
+        let distances = other.vertices.iter().map(|to| from.distance(*to));
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    let distances: Vec<f64> = mesh.vertices.iter().step_by(7).map(nearest).collect();
+    let mean = distances.iter().sum::<f64>() / distances.len() as f64;
+    assert!(mean < 0.5 * RADIUS, "{} radii", mean / RADIUS);
+}
+
+#[test]
+fn a_devices_vertices_have_the_values_of_the_particles_around_them() {
+    let (mesh, _) = on_device(
+        &lattice([20, 10, 12], |_| true),
+        &Walls::default(),
+        Addressing::Bitmap,
+    );
+    for (i, vertex) in mesh.vertices.iter().enumerate() {
+        let [x, y, z] = mesh.columns[0].row(i) else {
+            panic!("a velocity has three components")
+        };
+        assert!((x - 1.0).abs() < 1e-5 && z.abs() < 1e-5, "{x} {z}");
+        assert!((f64::from(*y) - vertex.y).abs() < 1.5 * RADIUS, "{y} at {vertex}");
     }
 }
 
@@ -255,8 +371,14 @@ fn two_runs_give_the_same_bytes_in_files_that_are_read_back() {
     for row in MESH_FORMATS {
         let path = folder.path().join(format!("surface_000007.{}", row.name));
         let bytes = [(); 2].map(|()| {
-            let made =
-                make_surfaces(&recorded, &Walls::default(), folder.path(), &settings(row.name)).unwrap();
+            let made = make_surfaces(
+                &recorded,
+                &Walls::default(),
+                folder.path(),
+                &settings(row.name),
+                None,
+            )
+            .unwrap();
             assert_eq!((made.meshes, made.empty.len()), (1, 0));
             std::fs::read(&path).unwrap()
         });
@@ -344,7 +466,7 @@ fn columns_that_the_files_lack_are_refused() {
             columns: Some(vec![columns.into()]),
             ..settings("ply")
         };
-        make_surfaces(&recorded, &Walls::default(), folder.path(), &settings)
+        make_surfaces(&recorded, &Walls::default(), folder.path(), &settings, None)
             .unwrap_err()
             .to_string()
     };
@@ -365,7 +487,7 @@ fn meshes_that_are_there_stay() {
         force: false,
         ..settings("ply")
     };
-    let refused = make_surfaces(&recorded, &Walls::default(), folder.path(), &settings).unwrap_err();
+    let refused = make_surfaces(&recorded, &Walls::default(), folder.path(), &settings, None).unwrap_err();
     assert!(refused.to_string().contains("--force"), "{refused}");
     assert_eq!(std::fs::read(&path).unwrap(), b"mine");
 }

@@ -47,6 +47,11 @@ impl<'a> Walls<'a> {
         }
     }
 
+    /// Where the domain's sides stand along each axis, metres; none where a side lets particles through.
+    pub fn sides(&self) -> [[Option<f64>; 2]; 3] {
+        self.sides
+    }
+
     /// Copies of particles beyond sides, so that a surface goes straight on through them: whose copy, and where, metres.
     pub fn copies(&self, position: &[DVec3], spacing: f64) -> Vec<(usize, DVec3)> {
         let mut all: Vec<(usize, DVec3)> = position.iter().copied().enumerate().collect();

@@ -104,6 +104,9 @@ pub enum Look {
     /// The smooth surface of a clear liquid, which reflects the sky and refracts what lies behind it: screen-space fluid
     /// with a narrow-range filter (Truong and Yuksel 2018). Fluids in 3D have it.
     Water,
+    /// One closed surface around the particles, lit, in the color of their values: a mesh that the device makes of each
+    /// frame (Zhu and Bridson 2005). Fluids in 3D have it.
+    Mesh,
 }
 
 /// An extra image of a frame. All but `color` hold what the middle of each pixel sees.
@@ -140,6 +143,7 @@ impl Look {
     pub fn follows_particles(self) -> bool {
         match self {
             Self::Splats | Self::Spheres | Self::Water => true,
+            Self::Mesh => false,
         }
     }
 }
