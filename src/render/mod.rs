@@ -153,19 +153,14 @@ impl Renderer {
                     let paths = self.scene.colliders.iter().map(|collider| &collider.path);
                     let offsets: Vec<Vec3> = paths.map(|path| offset_at(path, time)).collect();
                     let picture = self.picture(place, time, moment.lens, count);
-                    stages.encode(
-                        gpu,
-                        encoder,
-                        &picture,
-                        &colliders::looks(&self.scene.colliders, &offsets),
-                    )?;
+                    stages.encode(gpu, encoder, &picture, &colliders::looks(&self.scene, &offsets))?;
                 }
                 blur.end(encoder, place.width * place.height);
             }
             // Extra images are those of the frame's own time.
             if self.blur.is_none() || self.style.marks {
                 let picture = self.picture(place, time, DVec2::ZERO, count);
-                let looks = colliders::looks(&self.scene.colliders, offsets);
+                let looks = colliders::looks(&self.scene, offsets);
                 stages.encode(gpu, encoder, &picture, &looks)?;
                 stages.encode_passes(gpu, encoder, &self.scene, &self.layout, &picture, time)?;
             }
