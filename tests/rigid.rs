@@ -329,7 +329,6 @@ fn what_rigid_bodies_do_not_know_is_refused() {
         json!({ "shape": { "kind": "box", "min": [-0.2, -0.1, -0.1], "max": [0.2, 0.1, 0.1] }, "rigid": {} });
     let sound = space(3, json!([body]));
     assert!(parse(&sound).is_ok());
-    let fluid = json!({ "spacing": 0.05 });
     let old = json!({ "radius": 0.02, "spring": 100, "restitution": 0.5 });
     for (path, value, expected) in [
         ("/bodies/0/rigid/density", json!(-1), "out of range"),
@@ -375,6 +374,7 @@ fn what_rigid_bodies_do_not_know_is_refused() {
         ),
         ("/time/adaptive", json!(true), "how fast rigid bodies turn"),
         ("/grains", old, "set grains.law to `linear`"),
+        ("/bodies/0/rigid/color", json!("#ff0000"), "drawn one by one"),
         (
             "/emitters",
             json!([{ "name": "spout", "center": [0, 0.5, 0], "radius": 0.1, "velocity": [0, -1, 0], "rigid": {} }]),
@@ -394,11 +394,6 @@ fn what_rigid_bodies_do_not_know_is_refused() {
             Err(error) => assert!(error.to_string().contains(expected), "{path}: {error}"),
         }
     }
-    let mut wet = sound.clone();
-    wet["fluid"] = fluid;
-    wet.as_object_mut().unwrap().remove("grains");
-    let error = parse(&wet).unwrap_err().to_string();
-    assert!(error.contains("rigid bodies are made of grains"), "{error}");
 }
 
 #[test]

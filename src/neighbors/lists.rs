@@ -12,7 +12,7 @@ use super::layout::ListState;
 use super::{Grid, Room, Search, storage};
 use crate::error::{Error, Result};
 use crate::gpu::{BufferPlan, Items, Limits, PassPlan, Variant};
-use crate::scene::Scene;
+use crate::scene::{Scene, floating};
 
 /// Shader of the pass that counts a step; with lists it also decides whether to search.
 const CLOCK: &str = "physics/advance_clock";
@@ -24,6 +24,7 @@ pub(super) const FLAGS: &[&str] = &[
     "periodic",
     "walls_apart",
     "boundary_in_reach",
+    floating::FLAG,
 ];
 
 /// Particles whose rows of a list are interleaved: what the narrowest processors read side by side; wider ones read whole
@@ -100,8 +101,8 @@ fn listed(scene: &Scene, room: Room) -> u64 {
     if knows_reach(scene) {
         u64::from(scene.first_boundary()) + u64::from(room.reached)
     } else if every_step(scene) && sorts {
-        // Boundary particles, which stand behind the others, have no lists there.
-        scene.first_boundary().into()
+        // Boundary particles, which stand behind the others, have no lists there but in rigid bodies.
+        u64::from(scene.first_boundary()) + floating::members(scene)
     } else {
         scene.capacity.into()
     }
@@ -263,6 +264,7 @@ pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
         .flag("lists_every_step", every_step(scene))
         .flag("walls_apart", walls_apart(scene))
         .flag("boundary_in_reach", knows_reach(scene))
+        .flag(floating::FLAG, floating::are_in(scene))
         .constant("LIST_LANES", LIST_LANES)
         .constant("LIST_HEAD", head(scene))
         .flag("periodic", scene.domain.period() != glam::Vec3::ZERO)
@@ -283,7 +285,7 @@ pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
     search.passes.push(PassPlan::new(
         "storage/lists/build",
         "list_candidates",
-        if every_step(scene) || knows_reach(scene) {
+        if every_step(scene) && !floating::are_in(scene) || knows_reach(scene) {
             Items::SearchedFreeParticles
         } else {
             Items::SearchedParticles

@@ -1,14 +1,14 @@
 //! `bodies.csv`: where each rigid body of a scene is in each frame, and how it moves.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use glam::DQuat;
+use glam::{DQuat, DVec3};
 
 use super::Sink;
 use super::sensors::{FIRST_COLUMNS, TableFile};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::physics::bodies::BodyMotion;
 use crate::scene::Dimensions;
 use crate::simulation::frame::Frame;
@@ -58,6 +58,46 @@ fn header(dimensions: Dimensions) -> String {
     format!("{FIRST_COLUMNS},body,{own}\n")
 }
 
+/// How bodies moved in a frame of a run with this file, in the order of bodies; fewer where it has no such rows.
+///
+/// # Errors
+///
+/// Where the file cannot be read.
+pub fn read(file: &Path, frame: u32, dimensions: Dimensions) -> Result<Vec<BodyMotion>> {
+    let text = std::fs::read_to_string(file).map_err(|error| {
+        Error::usage(
+            format!("{} cannot be read: {error}", file.display()),
+            "it says where rigid bodies are; draw from checkpoints (--checkpoint-every 1), or run again",
+        )
+    })?;
+    let numbers =
+        |line: &str| -> Option<Vec<f64>> { line.split(',').map(|cell| cell.parse().ok()).collect() };
+    let rows = text.lines().skip(1).filter_map(numbers);
+    let of_frame = rows.filter(|row| row.get(2) == Some(&f64::from(frame)));
+    Ok(of_frame
+        .filter_map(|row| motion(row.get(4..)?, dimensions))
+        .collect())
+}
+
+/// The reverse of [`values`].
+fn motion(values: &[f64], dimensions: Dimensions) -> Option<BodyMotion> {
+    Some(match (dimensions, values) {
+        (Dimensions::Two, &[x, y, angle, vx, vy, turning]) => BodyMotion {
+            center: DVec3::new(x, y, 0.0),
+            orientation: DQuat::from_rotation_z(angle),
+            velocity: DVec3::new(vx, vy, 0.0),
+            angular_velocity: DVec3::Z * turning,
+        },
+        (Dimensions::Three, &[x, y, z, w, i, j, k, vx, vy, vz, wx, wy, wz]) => BodyMotion {
+            center: DVec3::new(x, y, z),
+            orientation: DQuat::from_xyzw(i, j, k, w).normalize(),
+            velocity: DVec3::new(vx, vy, vz),
+            angular_velocity: DVec3::new(wx, wy, wz),
+        },
+        _ => return None,
+    })
+}
+
 /// A row for each body. Bodies are numbered from 1 on, as in the column `body` of particles.
 fn rows(frame: &Frame, dimensions: Dimensions) -> String {
     let mut rows = String::new();
@@ -105,8 +145,6 @@ fn values(body: &BodyMotion, dimensions: Dimensions) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
-
     use super::*;
 
     #[test]
@@ -133,6 +171,8 @@ mod tests {
         ] {
             let rows = rows(&frame, dimensions);
             assert_eq!(rows.lines().nth(1), Some(row));
+            let again = motion(&values(&body, dimensions), dimensions).expect("a motion");
+            assert!(again.orientation.abs_diff_eq(body.orientation, 1e-12) && again.center == body.center);
             let columns = |line: &str| line.trim_end().split(',').count();
             assert_eq!(columns(&header(dimensions)), columns(row));
         }

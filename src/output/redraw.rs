@@ -17,12 +17,13 @@ use super::run::Settings;
 use super::stopping::Stopping;
 use super::tally::Tally;
 use super::text::seconds;
-use super::{given_color, interrupt};
+use super::{bodies, given_color, interrupt};
 use crate::error::{Error, Result};
 use crate::physics;
 use crate::plan::{Plan, Wanted};
 use crate::scene::Scene;
 use crate::scene::column::Source;
+use crate::scene::floating;
 use crate::scene::model::ImagePass;
 use crate::simulation::frame::Frame;
 use crate::simulation::{Simulation, State};
@@ -191,7 +192,20 @@ pub fn redraw(
             {
                 simulation.give_column(&values)?;
             }
-            simulation.restore(&state(&scene, frame, snapshot))?;
+            let is_whole = snapshot.state.is_some();
+            let mut state = state(&scene, frame, snapshot);
+            if floating::are_in(&scene) && !is_whole {
+                let motions = bodies::read(&recorded.folder.join(bodies::NAME), frame, scene.dimensions)?;
+                let states = physics::bodies::states(&scene, &motions).ok_or_else(|| {
+                    Error::usage(
+                        format!("{} has not all rigid bodies of frame {frame}", bodies::NAME),
+                        "draw from checkpoints (--checkpoint-every 1), or run again",
+                    )
+                })?;
+                let bytes = bytemuck::cast_slice(&states).to_vec();
+                state.buffers.push(("body_state".into(), bytes));
+            }
+            simulation.restore(&state)?;
             simulation.show(frame)?.map_or(Ok(()), &mut take)?;
         }
         while let Some(frame) = simulation.finish_frame()? {

@@ -1,5 +1,5 @@
 //! Rigid bodies made of grains (Harada 2007, GPU Gems 3, chapter 29): buffers and passes that sum what their particles feel,
-//! turn and move them, and take the particles along.
+//! turn and move them, and take the particles along. Those in a fluid are in `src/physics/floating.rs`.
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -30,7 +30,7 @@ pub(super) fn plan(scene: &Scene, grain_mass: f64, variant: &mut Variant) -> Vec
     }
     let members = members(bodies);
     variant
-        .constant("BODIES", bodies.len() as u32)
+        .constant("RIGID_BODIES", bodies.len() as u32)
         .constant("MEMBERS", members.len() as u32);
     let shapes: Vec<BodyShape> = bodies
         .iter()
@@ -97,7 +97,7 @@ fn members(bodies: &[RigidBody]) -> Vec<[f32; 4]> {
     members
 }
 
-fn shape(body: &RigidBody, grain_mass: f64, dimensions: Dimensions) -> BodyShape {
+pub(super) fn shape(body: &RigidBody, grain_mass: f64, dimensions: Dimensions) -> BodyShape {
     BodyShape {
         first: body.first,
         count: body.places.len() as u32,
@@ -108,7 +108,7 @@ fn shape(body: &RigidBody, grain_mass: f64, dimensions: Dimensions) -> BodyShape
 }
 
 /// As it is at the start.
-fn state(body: &RigidBody, grain_mass: f64) -> BodyState {
+pub(super) fn state(body: &RigidBody, grain_mass: f64) -> BodyState {
     let turn = DMat3::from_quat(body.orientation);
     let momentum = turn * body.inertia * turn.transpose() * body.angular_velocity;
     let center = body.center.as_vec3();
@@ -123,6 +123,23 @@ fn state(body: &RigidBody, grain_mass: f64) -> BodyState {
         orientation: body.orientation.as_quat().into(),
         orientation_rest: [0.0; 4],
     }
+}
+
+/// What the device holds of the scene's bodies, which move like this; `None` where these are not as many.
+pub fn states(scene: &Scene, motions: &[BodyMotion]) -> Option<Vec<BodyState>> {
+    let mass = (super::model(&scene.matter).particle_mass)(scene);
+    let now = |(body, motion): (&RigidBody, &BodyMotion)| {
+        let body = RigidBody {
+            center: motion.center - scene.origin,
+            orientation: motion.orientation,
+            velocity: motion.velocity,
+            angular_velocity: motion.angular_velocity,
+            ..body.clone()
+        };
+        state(&body, mass)
+    };
+    let all = scene.rigid_bodies.iter().zip(motions).map(now).collect();
+    (motions.len() == scene.rigid_bodies.len()).then_some(all)
 }
 
 fn columns(matrix: DMat3) -> [[f32; 4]; 3] {

@@ -12,6 +12,7 @@
 
 use super::collider::Obstacles;
 use super::dem::has_wall;
+use super::floating;
 use super::fluid::{
     self, FLAG, body_velocity, boundary, coefficients, given, kernel_file, measure, measures, rim_of,
 };
@@ -101,9 +102,11 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         .flag("rim", rim)
         .flag("faces", faces)
         .flag("statistics", statistics);
+    let bodies = scene::floating::are_in(scene);
 
     let mut solver = Solver {
         obstacles: Obstacles::of_boundary_particles(scene),
+        buffers: floating::plan(scene, (fluid::MODEL.particle_mass)(scene), variant),
         ..Solver::default()
     };
     // A vector more where there is drag.
@@ -275,6 +278,11 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             ),
         ]);
     }
+    // In a scene with rigid bodies.
+    let with_bodies = |passes: [PassPlan; 2]| passes.into_iter().filter(move |_| bodies);
+    if bodies {
+        solver.before_search.extend(floating::begin());
+    }
     solver.before_search.extend([
         pass(
             "divergence",
@@ -288,6 +296,10 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             true,
             pass("control", "watch_divergence_loop", once, watch),
         ),
+    ]);
+    let answer = |second| with_bodies(floating::answer(second)).map(|pass| repeated(DIVERGENCE, false, pass));
+    solver.before_search.extend(answer(false));
+    solver.before_search.extend([
         repeated(
             DIVERGENCE,
             false,
@@ -308,6 +320,9 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
                 "whether pressures have converged",
             ),
         ),
+    ]);
+    solver.before_search.extend(answer(true));
+    solver.before_search.extend([
         repeated(
             DIVERGENCE,
             false,
@@ -330,13 +345,15 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             free,
             "pressures change velocities",
         ),
-        pass(
-            "remainder",
-            "find_remainder",
-            free,
-            "divergence that the compact equation does not see",
-        ),
     ]);
+    solver.before_search.extend(with_bodies(floating::push(false)));
+    solver.before_search.extend([pass(
+        "remainder",
+        "find_remainder",
+        free,
+        "divergence that the compact equation does not see",
+    )]);
+    solver.before_search.extend(with_bodies(floating::push(true)));
     solver
         .before_search
         .extend(request.sensors.then(|| sensors::force_pass(scene)).flatten());
@@ -394,6 +411,9 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             .before_search
             .push(pass("move_boundary", "move_boundary", all, why));
     }
+    if bodies {
+        solver.before_search.push(floating::go());
+    }
     solver.before_search.push(PassPlan::new(
         "physics/advance_clock",
         "advance_clock",
@@ -406,6 +426,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         free,
         "density by summation, and how it answers to pressure",
     ));
+    solver.after_search.extend(with_bodies(floating::find()));
     if statistics {
         let why = "where energies are zero";
         solver

@@ -222,16 +222,32 @@ shared_struct! {
 shared_struct! {
     /// What a rigid body is made of.
     pub struct BodyShape {
-        /// Id of its first particle.
+        /// Place of its first particle among the particles of bodies.
         pub first: u32,
         /// Number of its particles.
         pub count: u32,
         /// 1/kg.
         pub inverse_mass: f32,
-        /// Of one grain, kg.
+        /// Of one grain, or of one particle of the fluid, kg.
         pub grain_mass: f32,
         /// Columns, along the body's own axes, 1/(kg·m²).
         pub inverse_inertia: [[f32; 4]; 3],
+    }
+}
+
+shared_struct! {
+    /// A particle of a rigid body in a fluid.
+    pub struct Member {
+        /// Where it is in its body, from the center of mass along the body's own axes, metres.
+        pub place: [f32; 4],
+        /// Number of the body, from 0 on.
+        pub body: u32,
+        /// Where the particle stands behind the last search.
+        pub slot: u32,
+        /// Of the body, 1/kg.
+        pub inverse_mass: f32,
+        /// Sum over the contacts of the body, metres.
+        pub overlaps: f32,
     }
 }
 
@@ -531,6 +547,7 @@ pub const SHARED: &[SharedLayout] = &[
     Motion::LAYOUT,
     BodyShape::LAYOUT,
     BodyState::LAYOUT,
+    Member::LAYOUT,
     Collider::LAYOUT,
     Measure::LAYOUT,
     Fluid::LAYOUT,

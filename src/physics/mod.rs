@@ -5,6 +5,7 @@ pub mod collider;
 pub mod dem;
 pub mod dfsph;
 pub mod fields;
+mod floating;
 pub mod fluid;
 pub mod formulas;
 pub mod kernels;

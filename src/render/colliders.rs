@@ -1,12 +1,13 @@
-//! Colliders as triangles.
+//! Colliders, and rigid bodies in a fluid, as triangles.
 
 use std::collections::BTreeMap;
 
 use glam::{DVec3, Vec3};
 
 use super::backdrop::linear;
+use crate::scene::floating::Surface;
 use crate::scene::mesh::Mesh;
-use crate::scene::{Collider, ColliderShape, Dimensions, Domain, Scene};
+use crate::scene::{ColliderShape, Dimensions, Domain, Scene};
 
 /// Two entries a vertex: position and the collider's number; normal and 1 where only the outside is drawn.
 pub type Vertices = Vec<[f32; 4]>;
@@ -17,39 +18,61 @@ const RIM: f32 = 0.03;
 /// Edges sharper than this stay sharp in a mesh's shading.
 const CREASE_COSINE: f64 = 0.7;
 
-/// Every visible collider, where its shape places it.
+/// Every visible collider, where its shape places it; then rigid bodies in a fluid, each in its own axes and numbered behind
+/// all colliders.
 pub fn triangles(scene: &Scene) -> Vertices {
-    let mut all = Surface::default();
+    let mut all = Triangles::default();
     for (number, collider) in scene.colliders.iter().enumerate() {
         if collider.visible {
             all.number = number as f32;
-            all.collider(collider, scene);
+            all.shape(&collider.shape, scene);
         }
+    }
+    for (number, surface) in (scene.colliders.len()..).zip(surfaces(scene)) {
+        all.number = number as f32;
+        all.shape(&surface.shape, scene);
     }
     all.vertices
 }
 
-/// Two entries a collider: present offset and 1 where it casts a shadow; linear color.
-pub fn looks(colliders: &[Collider], offsets: &[Vec3]) -> Vec<[f32; 4]> {
+/// Those of rigid bodies in a fluid, body by body.
+pub fn surfaces(scene: &Scene) -> impl Iterator<Item = &Surface> {
+    scene
+        .rigid_bodies
+        .iter()
+        .filter_map(|body| body.surface.as_deref())
+}
+
+/// Two entries a collider, and then a body: present offset and 1 where it casts a shadow; linear color. The device knows where
+/// bodies are.
+pub fn looks(scene: &Scene, offsets: &[Vec3]) -> Vec<[f32; 4]> {
     let mut looks = Vec::new();
-    for (index, collider) in colliders.iter().enumerate() {
+    for (index, collider) in scene.colliders.iter().enumerate() {
         let offset = offsets.get(index).copied().unwrap_or_default();
         // A plane has no outline, so its shadow would end at the domain's sides.
         let casts = !matches!(collider.shape, ColliderShape::Plane { .. });
         looks.push(offset.extend(f32::from(u8::from(casts))).to_array());
-        let [r, g, b] = collider.color.map(|c| linear((c * 255.0).round() as u8));
-        looks.push([r, g, b, 1.0]);
+        looks.push(linear_color(collider.color));
+    }
+    for surface in surfaces(scene) {
+        looks.push([0.0, 0.0, 0.0, 1.0]);
+        looks.push(linear_color(surface.color));
     }
     looks
 }
 
+fn linear_color(color: [f32; 3]) -> [f32; 4] {
+    let [r, g, b] = color.map(|c| linear((c * 255.0).round() as u8));
+    [r, g, b, 1.0]
+}
+
 #[derive(Default)]
-struct Surface {
+struct Triangles {
     vertices: Vertices,
     number: f32,
 }
 
-impl Surface {
+impl Triangles {
     fn vertex(&mut self, position: Vec3, normal: Vec3, outside_only: bool) {
         self.vertices.push(position.extend(self.number).to_array());
         self.vertices
@@ -65,9 +88,9 @@ impl Surface {
         }
     }
 
-    fn collider(&mut self, collider: &Collider, scene: &Scene) {
+    fn shape(&mut self, shape: &ColliderShape, scene: &Scene) {
         let flat = scene.dimensions == Dimensions::Two;
-        match &collider.shape {
+        match shape {
             ColliderShape::Plane { point, normal } if flat => {
                 let solid = clip(&domain_rectangle(&scene.domain), *point, -*normal);
                 self.fan(&solid, Vec3::Z, false);

@@ -161,7 +161,7 @@ impl Renderer {
                         buffers,
                         encoder,
                         &picture,
-                        &colliders::looks(&self.scene.colliders, &offsets),
+                        &colliders::looks(&self.scene, &offsets),
                     )?;
                 }
                 blur.end(encoder, place.width * place.height);
@@ -169,7 +169,7 @@ impl Renderer {
             // Extra images are those of the frame's own time.
             if self.blur.is_none() || self.style.marks {
                 let picture = picture(time, DVec2::ZERO);
-                let looks = colliders::looks(&self.scene.colliders, offsets);
+                let looks = colliders::looks(&self.scene, offsets);
                 stages.encode(gpu, buffers, encoder, &picture, &looks)?;
                 stages.encode_passes(gpu, encoder, &self.scene, &self.layout, &picture, time)?;
             }

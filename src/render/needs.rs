@@ -154,10 +154,10 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
     if style.colliders {
         let vertices = (colliders::triangles(scene).len() as u64).max(1);
         needs.storage("collider_vertex", vertices, 16, "colliders as triangles");
-        let colliders = scene.colliders.len() as u64;
+        let colliders = scene.colliders.len() + colliders::surfaces(scene).count();
         needs.storage(
             "collider_look",
-            colliders,
+            colliders as u64,
             32,
             "where colliders are and their color",
         );

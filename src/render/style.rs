@@ -9,6 +9,7 @@ use super::picture::floor_height;
 use crate::gpu::Variant;
 use crate::neighbors::FROM_VOXELS;
 use crate::scene::column::Source;
+use crate::scene::floating;
 use crate::scene::model::{Addressing, Background, ImagePass, Look, Splat, View};
 use crate::scene::{Dimensions, Scene};
 
@@ -69,7 +70,9 @@ impl Style {
             occlusion: solid && !water && !mesh,
             round_shadows,
             floor: drawn && three_dimensional && render.show.floor,
-            colliders: drawn && render.show.colliders && scene.colliders.iter().any(|c| c.visible),
+            colliders: drawn
+                && render.show.colliders
+                && (scene.colliders.iter().any(|c| c.visible) || floating::are_in(scene)),
             domain: drawn && render.show.domain,
             slices: drawn && render.show.slices && scene.neighbors.addressing == Addressing::Sliced,
             marks: drawn && passes::need_marks(render),

@@ -9,6 +9,7 @@ use rand_chacha::rand_core::SeedableRng;
 
 use super::filling::Filling;
 use super::fit::{self, Grains, Placed};
+use super::floating;
 use super::frame::{Frame, LARGEST_COORDINATE, Report};
 use super::grain_materials;
 use super::mesh::Mesh;
@@ -47,10 +48,21 @@ pub fn fill(
     let mut bodies = Vec::new();
     let mut particles = Particles::default();
     let mut rigid = Vec::new();
+    if file.fluid.is_some() {
+        // Fluid makes room for them, wherever they stand in the file; their particles come later.
+        for (i, body) in file.bodies.iter().enumerate() {
+            if let Some(given) = &body.rigid {
+                rigid.extend(rigid::bodies(i, body, given, file, frame, folder, report));
+            }
+        }
+    }
     for (i, body) in file.bodies.iter().enumerate() {
         let path = format!("bodies[{i}]");
         let first = particles.len();
         bodies.push(first..first);
+        if file.fluid.is_some() && body.rigid.is_some() {
+            continue;
+        }
         if let Some(given) = &body.rigid {
             for mut one in rigid::bodies(i, body, given, file, frame, folder, report) {
                 one.first = particles.len() as u32;
@@ -85,7 +97,7 @@ pub fn fill(
             report.problem(&path, "is empty: not one particle fits", help);
             continue;
         }
-        let Some(grains) = fitted(
+        let Some(mut grains) = fitted(
             &path,
             grains,
             reach(&fillings[i]),
@@ -96,6 +108,10 @@ pub fn fill(
         ) else {
             continue;
         };
+        if file.fluid.is_some() {
+            let radius = reach(&fillings[i]);
+            floating::remove_inside(&path, &mut grains, &rigid, radius, frame.dimensions, report);
+        }
         if i + 1 < file.bodies.len() {
             placed.add(&grains.position, i);
         }
@@ -126,13 +142,15 @@ pub fn fill(
             format!("stay at or below {}", rigid::MOST_BODIES),
         );
     }
-    rigid::mark(
-        &rigid,
-        file.density(),
-        file.radius(),
-        frame.dimensions,
-        &mut particles,
-    );
+    if file.grains.is_some() {
+        rigid::mark(
+            &rigid,
+            file.density(),
+            file.radius(),
+            frame.dimensions,
+            &mut particles,
+        );
+    }
     Filled {
         particles,
         rigid,

@@ -17,7 +17,8 @@ pub struct BoundaryParticles {
     pub position: Vec<Vec3>,
     /// Velocity of the surface besides its body's motion, m/s.
     pub surface_velocity: Vec<Vec3>,
-    /// Index of the collider that each belongs to; `NO_BODY` for the domain's sides.
+    /// Index of the collider that each belongs to, or of the rigid body behind all colliders; `NO_BODY` for the domain's
+    /// sides.
     pub body: Vec<u32>,
     /// How far they reach beyond the domain's sides, metres.
     pub depth: f64,
@@ -47,7 +48,7 @@ pub fn sample(
     report: &mut Report,
 ) -> BoundaryParticles {
     let spacing = 2.0 * file.radius();
-    let layers = (support / spacing - 1e-9).ceil();
+    let layers = layers(support, spacing);
     let mut boundary = BoundaryParticles {
         depth: layers * spacing,
         ..BoundaryParticles::default()
@@ -74,6 +75,11 @@ pub fn sample(
         }
     }
     boundary
+}
+
+/// Layers of particles that a kernel reaches.
+pub(super) fn layers(support: f64, spacing: f64) -> f64 {
+    (support / spacing - 1e-9).ceil()
 }
 
 /// A lattice that goes on from the fluid's: its points stand half a spacing off the sides.
@@ -276,7 +282,13 @@ fn inside(collider: &Collider, frame: &Frame, spacing: f64, depth: f64) -> Vec<D
 }
 
 /// Points of a box's own lattice, half a spacing below its faces.
-fn box_shell(min: DVec3, max: DVec3, dimensions: Dimensions, spacing: f64, depth: f64) -> Vec<DVec3> {
+pub(super) fn box_shell(
+    min: DVec3,
+    max: DVec3,
+    dimensions: Dimensions,
+    spacing: f64,
+    depth: f64,
+) -> Vec<DVec3> {
     let axes = dimensions.count();
     let mut ticks: [Vec<f64>; 3] = [vec![0.0], vec![0.0], vec![0.0]];
     for (axis, ticks) in ticks.iter_mut().enumerate().take(axes) {
@@ -310,7 +322,7 @@ fn box_shell(min: DVec3, max: DVec3, dimensions: Dimensions, spacing: f64, depth
 }
 
 /// Rings in 2D, Fibonacci spheres in 3D, one spacing apart, below the surface of what is solid.
-fn sphere_shells(
+pub(super) fn sphere_shells(
     center: DVec3,
     radius: f64,
     hollow: bool,

@@ -372,7 +372,7 @@ pub const FIELDS: &[Field] = &[
 ];
 
 fn has_rigid_bodies(scene: &Scene) -> bool {
-    !scene.rigid_bodies.is_empty()
+    scene.grains().is_some() && !scene.rigid_bodies.is_empty()
 }
 
 /// No angular velocity, and beside it the key by which contacts remember the grain.

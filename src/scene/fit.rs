@@ -93,13 +93,23 @@ pub fn remove_inside_colliders(
             .first()
             .map_or(DVec3::ZERO, |(_, offset)| offset.as_dvec3());
         let obstacle = Obstacle::new(&collider.shape, dimensions);
-        let reach = radius * (1.0 - TOLERANCE);
+        let reach = reach(radius);
         let is_free = |center: &DVec3| !obstacle.touches(*center - offset, reach);
         let kept: Vec<bool> = grains.position.iter().map(is_free).collect();
-        let (all, removed) = (kept.len(), kept.iter().filter(|kept| !**kept).count());
-        grains.keep(&kept);
-        lost(path, removed, all, &format!("colliders[{i}]"), report);
+        keep_free(path, grains, &kept, &format!("colliders[{i}]"), report);
     }
+}
+
+/// How near the center of a grain may come to a surface, metres.
+pub fn reach(radius: f64) -> f64 {
+    radius * (1.0 - TOLERANCE)
+}
+
+/// Removes grains that are not `kept`, since they overlap `other`.
+pub fn keep_free(path: &str, grains: &mut Grains, kept: &[bool], other: &str, report: &mut Report) {
+    let (all, removed) = (kept.len(), kept.iter().filter(|kept| !**kept).count());
+    grains.keep(kept);
+    lost(path, removed, all, other, report);
 }
 
 /// Removes grains that overlap a grain of an earlier body.

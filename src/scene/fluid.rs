@@ -9,6 +9,7 @@ use super::model::{
     self, DensityFrom, FluidSolver, Integrator, Kernel, NegativePressure, PressureForce, SceneFile, Slip,
     ViscosityForm,
 };
+use super::rigid::RigidBody;
 use super::text::{number, suggest};
 use super::{Dimensions, Particles, StepLimits};
 
@@ -40,6 +41,10 @@ const GRAVITY: &str = "gravity";
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fluid {
     pub solver: FluidSolver,
+    /// The longest step with which rigid bodies lie firmly on each other, seconds.
+    pub contact_step: f64,
+    /// Whether rigid bodies are in it.
+    pub has_bodies: bool,
     /// Of particles at rest, metres.
     pub spacing: f64,
     /// At least one; particles carry an index into it where there are several.
@@ -107,6 +112,8 @@ pub struct Speeds<'a> {
     /// Local positions and velocities at the start.
     pub particles: &'a Particles,
     pub gravity: DVec3,
+    /// Rigid bodies in the fluid.
+    pub bodies: &'a [RigidBody],
     /// Fastest wall, obstacle or emitter, m/s.
     pub walls: f64,
     /// The greatest surface tension that events set, N/m.
@@ -117,6 +124,11 @@ pub struct Speeds<'a> {
 /// it is: longer steps are too long for the pressure of fluid at rest. Columns of 50 particles were at rest with 0.64, had a flaw
 /// with 0.70, and exploded with 0.77.
 const MOST_OF_FALL: f64 = 0.57;
+
+/// Radians by which the springs of contacts of rigid bodies swing in a step (`shaders/physics/dfsph/bodies/begin.wgsl`).
+const CONTACT_RATE: f64 = 0.4;
+/// How far a body that lies on another one may sink into it, in spacings. With 0.04, bodies in a pile were pressed through walls.
+const SAG: f64 = 0.02;
 
 impl Fluid {
     pub fn new(given: &model::Fluid, frame: &Frame, speeds: &Speeds, report: &mut Report) -> Self {
@@ -248,6 +260,11 @@ impl Fluid {
             shifting: given.shifting.unwrap_or(0.0),
             artificial_viscosity: given.artificial_viscosity,
             wall_friction: given.wall_friction,
+            has_bodies: !speeds.bodies.is_empty(),
+            contact_step: match speeds.bodies {
+                [] => f64::INFINITY,
+                _ => CONTACT_RATE * (SAG * given.spacing / speeds.gravity.length()).sqrt(),
+            },
             viscosity_form: given.viscosity_form.unwrap_or_default(),
             free_surface: false,
             slip: given.slip,
@@ -294,7 +311,10 @@ impl Fluid {
         let other = self.moving_step(gravity).min(longest.unwrap_or(f64::INFINITY));
         let explicit = self.viscous_step(greatest / self.materials[0].density);
         Self {
-            implicit_viscosity: self.solver == FluidSolver::Dfsph && explicit < EXPLICIT_SHARE * other,
+            // Bodies get the reverse of explicit viscosity alone.
+            implicit_viscosity: self.solver == FluidSolver::Dfsph
+                && !self.has_bodies
+                && explicit < EXPLICIT_SHARE * other,
             ..self
         }
     }
@@ -366,7 +386,7 @@ impl Fluid {
 
     /// The longest stable steps, seconds, and what each keeps: sound, viscosity, weight (Morris 1997) and waves of the
     /// surface (Brackbill 1992; Morris 2000).
-    pub fn step_limits(&self, gravity: f64) -> [(f64, &'static str); 4] {
+    pub fn step_limits(&self, gravity: f64) -> [(f64, &'static str); 5] {
         let h = self.step_length();
         let kinematic = self.materials.iter().map(|m| match self.implicit_viscosity {
             true => 0.0,
@@ -387,6 +407,7 @@ impl Fluid {
                 CAPILLARY_SHARE * (h.powi(3) / (2.0 * PI * tension)).sqrt(),
                 "surface tension",
             ),
+            (self.contact_step, "contacts of rigid bodies"),
         ]
     }
 
@@ -458,6 +479,7 @@ fn ripple_speed(given: &model::Fluid, later: f64) -> f64 {
 /// That of a fall from the highest particle to the domain's floor, or of what moves at the start.
 fn expected_speed(frame: &Frame, speeds: &Speeds) -> f64 {
     let fastest = speeds.particles.velocity.iter().map(|v| f64::from(v.length()));
+    let fastest = fastest.chain(speeds.bodies.iter().map(RigidBody::speed));
     let fastest = fastest.fold(speeds.walls, f64::max);
     let closed = |axis: usize| {
         frame.sides[axis]
@@ -479,6 +501,7 @@ fn expected_speed(frame: &Frame, speeds: &Speeds) -> f64 {
     };
     let floor = height(corner(true));
     let highest = speeds.particles.position.iter().map(|p| height(p.as_dvec3()));
+    let highest = highest.chain(speeds.bodies.iter().map(|body| height(body.center)));
     let highest = highest.fold(f64::NEG_INFINITY, f64::max);
     let top = if highest.is_finite() {
         highest

@@ -16,6 +16,7 @@ mod emission;
 pub mod field;
 mod filling;
 mod fit;
+pub mod floating;
 pub mod fluid;
 mod fluid_keys;
 pub mod fluid_start;

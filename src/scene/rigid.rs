@@ -1,10 +1,11 @@
-//! Rigid bodies made of grains: which places these take, and what the solid shape weighs.
+//! Rigid bodies: which places the grains that they are made of take, and what the solid shape weighs.
 
-mod solid;
+pub(super) mod solid;
 
 use std::collections::HashSet;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::{DMat3, DQuat, DVec3, IVec3};
 use rand::Rng;
@@ -13,6 +14,7 @@ use rand_chacha::rand_core::SeedableRng;
 
 use super::bodies::{self, expected_points, smaller};
 use super::fit::Grains;
+use super::floating::{self, Surface};
 use super::frame::{Frame, Report};
 use super::friction::Friction;
 use super::model::{Arrangement, Body, ContactLaw, Copies, Rigid, SceneFile, Shape, Wall};
@@ -25,9 +27,11 @@ use solid::Solid;
 pub const MOST_BODIES: usize = 1 << 16;
 
 /// A body whose particles keep their places in it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct RigidBody {
-    /// Id of its first particle; the others follow.
+    /// Index of its shape among the bodies of the scene file.
+    pub index: usize,
+    /// Id of its first particle; the others follow. In a fluid, its place among the boundary particles.
     pub first: u32,
     /// Where its particles are, from its center of mass along its own axes, metres.
     pub places: Vec<DVec3>,
@@ -43,6 +47,8 @@ pub struct RigidBody {
     pub velocity: DVec3,
     /// rad/s.
     pub angular_velocity: DVec3,
+    /// Of a body in a fluid.
+    pub surface: Option<Arc<Surface>>,
 }
 
 impl RigidBody {
@@ -55,6 +61,13 @@ impl RigidBody {
                 .map(|arm| self.velocity + self.angular_velocity.cross(arm))
                 .collect(),
         }
+    }
+
+    /// A speed that few of its particles exceed at the start, m/s.
+    pub fn speed(&self) -> f64 {
+        let axes = self.inertia;
+        let gyration = (axes.x_axis.x + axes.y_axis.y + axes.z_axis.z) / self.mass;
+        self.velocity.length() + self.angular_velocity.length() * gyration.sqrt()
     }
 
     /// 1/(kg·m²), along its own axes; in 2D only about z.
@@ -139,17 +152,23 @@ pub fn check(file: &SceneFile, frame: &Frame, report: &mut Report) {
     };
     let path = format!("bodies[{first}].rigid");
     match &file.grains {
-        None => report.problem(
-            &path,
-            "rigid bodies are made of grains, and this is a scene of fluid",
-            "leave it out",
-        ),
+        None => floating::check(file, report),
         Some(grains) if grains.law == ContactLaw::SpringDashpot => report.problem(
             &path,
             "grains that do not rub would let rigid bodies slide and never rest",
             "set grains.law to `linear` or `hertz`, or leave `rigid` out",
         ),
         Some(_) => {}
+    }
+    let colored = |body: &Body| body.rigid.as_ref().is_some_and(|rigid| rigid.color.is_some());
+    if file.grains.is_some()
+        && let Some(i) = file.bodies.iter().position(colored)
+    {
+        report.problem(
+            format!("bodies[{i}].rigid.color"),
+            "has no effect on grains, which are drawn one by one",
+            "leave it out, or color by `body`: render.color.by",
+        );
     }
     let axes = frame.dimensions.count();
     if frame.sides[..axes]
@@ -205,13 +224,19 @@ pub fn bodies(
     );
     let angular_velocity = angular_velocity(&path, rigid, frame.dimensions, report);
     let offsets = offsets(&path, rigid.copies.as_ref(), frame.dimensions, report);
-    let Some((points, solid)) = points(&path, body, offsets.len(), file, frame, folder, report) else {
+    let made = match file.fluid {
+        Some(_) => floating::surface(&path, body, rigid, frame, folder, report)
+            .map(|(surface, solid)| (Vec::new(), solid, Some(surface))),
+        None => points(&path, body, offsets.len(), file, frame, folder, report)
+            .map(|(points, solid)| (points, solid, None)),
+    };
+    let Some((points, solid, surface)) = made else {
         return Vec::new();
     };
     if report.problems.len() > sound {
         return Vec::new();
     }
-    if points.len() < 2 {
+    if points.len() < 2 && surface.is_none() {
         report.problem(
             &path,
             match points.len() {
@@ -232,6 +257,7 @@ pub fn bodies(
     let mut random = ChaCha8Rng::seed_from_u64(file.seed);
     random.set_stream(index as u64);
     let copy = |offset: &DVec3| RigidBody {
+        index,
         first: 0,
         places: places.clone(),
         mass: density * solid.content,
@@ -243,6 +269,7 @@ pub fn bodies(
         },
         velocity,
         angular_velocity,
+        surface: surface.clone(),
     };
     offsets.iter().map(copy).collect()
 }

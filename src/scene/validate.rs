@@ -13,6 +13,7 @@ use super::color_maps;
 use super::coloring::{self, Known};
 use super::contact::Law;
 use super::filling;
+use super::floating;
 use super::fluid::{Fluid, Speeds};
 use super::fluid_keys;
 use super::frame::{Frame, Report};
@@ -57,7 +58,7 @@ pub(super) fn validate(
     let obstacles = if all_sound { &colliders[..] } else { &[] };
     let bodies::Filled {
         mut particles,
-        rigid: rigid_bodies,
+        rigid: mut rigid_bodies,
         bodies,
     } = bodies::fill(&file, &fillings, &frame, obstacles, folder, &mut report);
     let frames = time::frames(&file.time, &mut report);
@@ -105,6 +106,7 @@ pub(super) fn validate(
             let speeds = Speeds {
                 particles: &particles,
                 gravity,
+                bodies: &rigid_bodies,
                 walls: fastest_wall(&file, &colliders),
                 later_tension: changes::greatest_tension(&file),
             };
@@ -112,8 +114,10 @@ pub(super) fn validate(
             fluid.check_sound("fluid.sound_speed", &mut report);
             start(&file, &fluid, gravity, &bodies, &mut particles, &mut report);
             if all_sound {
-                boundary_particles =
-                    boundary::sample(&file, &frame, &colliders, fluid.wall_depth(), &mut report);
+                let depth = fluid.wall_depth();
+                floating::cover(&mut rigid_bodies, &file, &frame, &colliders, depth, &mut report);
+                let walls = boundary::sample(&file, &frame, &colliders, depth, &mut report);
+                boundary_particles = floating::before(walls, &rigid_bodies, colliders.len());
             }
             let surface = all_sound
                 && report.problems.is_empty()

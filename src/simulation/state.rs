@@ -160,6 +160,14 @@ impl State {
         if !self.is_in_slot_order() || scene.rigid_bodies.is_empty() {
             return Ok(());
         }
+        let others = || Err("does not fit the scene: its rigid bodies are others".into());
+        if scene.fluid().is_some() {
+            // They are made of boundary particles, which states hold as the scene has them.
+            return match self.buffer("body_state") {
+                Some(_) => Ok(()),
+                None => others(),
+            };
+        }
         let numbers = &scene.particles.body;
         let of = |id: u32| numbers.get(id as usize).copied().unwrap_or(0);
         let bodies: Vec<u32> = bytemuck::pod_collect_to_vec(self.buffer("body").unwrap_or_default());
@@ -170,7 +178,7 @@ impl State {
             && members == numbers.iter().filter(|&&body| body != 0).count();
         match is_same && self.buffer("body_state").is_some() {
             true => Ok(()),
-            false => Err("does not fit the scene: its rigid bodies are others".into()),
+            false => others(),
         }
     }
 

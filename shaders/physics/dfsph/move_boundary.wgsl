@@ -10,6 +10,9 @@
 #import fields/next_position/write
 #import fields/next_velocity/write
 #import fields/id
+#if floating_bodies
+#import physics/dfsph/bodies/numbers
+#end
 
 @compute @workgroup_size(GROUP_SIZE)
 fn move_boundary(thread: Thread) {
@@ -17,6 +20,11 @@ fn move_boundary(thread: Thread) {
     if i >= parameters.particle_count || !is_boundary(i) {
         return;
     }
+#if floating_bodies
+    if member_number(id[i]) < MEMBERS {
+        return;
+    }
+#end
     let v = wall_velocity(i);
     next_position[i] = pack(wrapped(unpack(position[i]) + time_step() * v.motion));
     next_velocity[i] = pack(v.motion + v.surface);

@@ -7,6 +7,10 @@
 #import storage/lists/row
 #import cells/images
 #import physics/fluid/boundary_particles
+#if floating_bodies
+#import physics/fluid/coefficients
+#import physics/dfsph/bodies/numbers
+#end
 #import <storage>
 #if boundary_in_reach
 #import storage/lists/reach_word
@@ -36,9 +40,16 @@ fn list_range(i: u32, row: u32, wall: bool, y: Vector, range: vec2u, count: vec2
     var found = count;
     for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
         let j = candidate(slot);
+#if floating_bodies
+        // Those of rigid bodies ask for the fluid, and for boundary particles that they touch.
+        let wanted = j != i;
+        let reach = select(grid.list_reach, fluid.spacing, wall && is_boundary(j));
+#else
         // Boundary particles ask for the fluid only.
         let wanted = j != i && !(wall && is_boundary(j));
-        if wanted && within(unpack(position[j]) - y, grid.list_reach) {
+        let reach = grid.list_reach;
+#end
+        if wanted && within(unpack(position[j]) - y, reach) {
 #if walls_apart
             let behind = is_boundary(j);
             let place = select(found.x, grid.list_capacity - 1u - found.y, behind);
@@ -79,9 +90,13 @@ fn list_around(i: u32, number: u32, wall: bool, x: Vector) {
             let pair = range_pair(home, k, second);
             count = list_range(i, row, wall, y, pair.xy, count);
 #if separated
+#if floating_bodies
+            count = list_range(i, row, wall, y, pair.zw, count);
+#else
             if !wall {
                 count = list_range(i, row, false, y, pair.zw, count);
             }
+#end
 #end
         }
     }
@@ -104,6 +119,12 @@ fn list_candidates(thread: Thread) {
     let wall = is_boundary(i);
 #if lists_every_step
     if wall {
+#if floating_bodies
+        let number = member_number(id[i]);
+        if number < MEMBERS {
+            list_around(i, list_of_member(number, i), true, unpack(position[i]));
+        }
+#end
         return;
     }
 #end

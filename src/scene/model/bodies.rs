@@ -38,8 +38,8 @@ pub struct Body {
     #[serde(default = "quarter")]
     #[schemars(range(min = 0.001, max = 0.5))]
     pub fraction: f64,
-    /// Makes it a rigid body; for grains whose law is `linear` or `hertz`. Its `spacing` is between a grain's
-    /// radius and its diameter.
+    /// Makes it a rigid body; for grains whose law is `linear` or `hertz`, whose `spacing` in it is between a grain's radius
+    /// and its diameter, and for fluids of the solver `dfsph`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rigid: Option<Rigid>,
 }

@@ -10,7 +10,7 @@
 #import physics/dem/motion
 #import physics/dem/rotation
 #import physics/dem/frictional_contact
-#import physics/dem/bodies/body
+#import physics/bodies/body
 
 // m/s² and rad/s² by id: forces and torques of contacts over the mass of a grain.
 var<storage, read> contact_acceleration: array<Motion>;
@@ -78,7 +78,7 @@ fn moved(shape: BodyShape, before: BodyState, load: Load, dt: f32) -> BodyState 
 @compute @workgroup_size(GROUP_SIZE)
 fn move_bodies(thread: Thread) {
     let step = thread.groups.x * thread.groups.y;
-    for (var b = group_index(thread); b < BODIES; b += step) {
+    for (var b = group_index(thread); b < RIGID_BODIES; b += step) {
         let shape = body_shape[b];
         let state = body_state[b];
         loads[thread.local_index] = load_of(shape, state.orientation, thread.local_index);

@@ -7,7 +7,7 @@
 #import physics/dem/rest
 #import physics/dem/rotation
 #import physics/dem/frictional_contact
-#import physics/dem/bodies/body
+#import physics/bodies/body
 #import fields/velocity/pack
 #import fields/next_angular_velocity/write
 
