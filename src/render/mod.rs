@@ -103,7 +103,7 @@ impl Renderer {
             None => None,
         };
         let blur = match style.blurred {
-            true => Some(Blur::new(gpu, scene, &variant, buffers)?),
+            true => Some(Blur::new(gpu, scene, &style.variant(scene, variant), buffers)?),
             false => None,
         };
         let paint_pool = match &layout.pool {
