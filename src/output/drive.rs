@@ -27,7 +27,6 @@ use crate::gpu::device::describe;
 use crate::gpu::{Gpu, driver};
 use crate::plan::Plan;
 use crate::scene::Scene;
-use crate::scene::model::FluidSolver;
 use crate::simulation::frame::Frame;
 use crate::simulation::{Simulation, State};
 
@@ -525,12 +524,7 @@ impl Run<'_> {
                 None => self.pass_ms.push((label.clone(), *ms)),
             }
         }
-        let compressible = self
-            .scene
-            .fluid()
-            .filter(|fluid| fluid.solver != FluidSolver::Dfsph);
-        let sound_speed = compressible.map(|fluid| fluid.sound_speed);
-        for warning in self.health.check(&frame, sound_speed) {
+        for warning in self.health.check(&frame, self.scene.sound_speed()) {
             self.progress.warn(&warning);
         }
         self.progress.frame(&frame, &self.tally);

@@ -128,6 +128,12 @@ impl Scene {
         self.matter.fluid()
     }
 
+    /// Of a fluid that sound goes through, m/s.
+    pub fn sound_speed(&self) -> Option<f64> {
+        let compressible = |fluid: &&Fluid| fluid.solver != model::FluidSolver::Dfsph;
+        self.fluid().filter(compressible).map(|fluid| fluid.sound_speed)
+    }
+
     /// Of grains that rotate and rub.
     pub fn friction(&self) -> Option<&Friction> {
         self.grains()

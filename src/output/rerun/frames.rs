@@ -165,7 +165,7 @@ impl Frames {
             stream.log("events", &TextLog::new(text).with_level(TextLogLevel::INFO))?;
         }
         stream.set_duration_secs("sim_time", frame.time);
-        for warning in self.health.check(frame) {
+        for warning in self.health.check(frame, self.scene.sound_speed()) {
             stream.log("events", &TextLog::new(warning).with_level(TextLogLevel::WARN))?;
         }
         Ok(())
