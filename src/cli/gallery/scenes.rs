@@ -31,11 +31,18 @@ pub const ENTRIES: [Entry; 8] = [
         frame: 23,
     },
     Entry {
-        name: "bunny_shower",
-        about: "A slab of water falls over a bunny.",
-        scene: "bunny_shower",
+        name: "crates",
+        about: "The wave of a dam carries crates, a barrel and a ball away.",
+        scene: "crates_in_wave",
         set: &[],
-        frame: 18,
+        frame: 60,
+    },
+    Entry {
+        name: "honey",
+        about: "A bunny of honey melts.",
+        scene: "honey",
+        set: &[],
+        frame: 30,
     },
     Entry {
         name: "drum",
@@ -71,12 +78,5 @@ pub const ENTRIES: [Entry; 8] = [
         scene: "brick_wall",
         set: &[],
         frame: 18,
-    },
-    Entry {
-        name: "sand_heap",
-        about: "Sand is poured into a heap.",
-        scene: "sand_heap",
-        set: &[],
-        frame: 80,
     },
 ];
