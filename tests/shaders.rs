@@ -241,12 +241,52 @@ fn friction_plans() -> Vec<Plan> {
     plans
 }
 
+/// Rigid bodies in a fluid.
+fn floating_plans() -> Vec<Plan> {
+    let mut plans = Vec::new();
+    for dimensions in [2, 3] {
+        let z = |z: &str| {
+            if dimensions == 3 {
+                format!(",{z}")
+            } else {
+                String::new()
+            }
+        };
+        let bodies = format!(
+            r#"bodies=[{{"shape":{{"kind":"box","min":[0,0{}],"max":[0.3,0.4{}]}}}},
+                {{"shape":{{"kind":"sphere","center":[0.15,0.2{}],"radius":0.1}},"rigid":{{}}}}]"#,
+            z("0"),
+            z("0.4"),
+            z("0.2")
+        );
+        for more in [
+            &["fluid.viscosity=0.1", "neighbors.storage=counting"][..],
+            &[
+                "fluid.viscosity=0.1",
+                "fluid.slip=free_slip",
+                "neighbors.storage=pool",
+            ],
+            &[
+                "fluid.viscosity=0",
+                "domain.walls=open",
+                "neighbors.storage=radix",
+            ],
+        ] {
+            let given = ["fluid.solver=dfsph", &*bodies];
+            let scene = common::fluid(dimensions, &[&given[..], more].concat());
+            plans.push(Plan::new(&scene, &Limits::PROMISED, &wanted()).expect("a plan"));
+        }
+    }
+    plans
+}
+
 /// Plans that together use every flag and role.
 fn plans() -> Vec<Plan> {
     let wanted = wanted();
     let mut plans = fluid_plans();
     plans.extend(plans_with_sensors());
     plans.extend(friction_plans());
+    plans.extend(floating_plans());
     for dimensions in [2, 3] {
         for addressing in ADDRESSINGS.iter().map(|row| row.name) {
             for storage in STORAGES.iter().map(|row| row.name) {
