@@ -557,6 +557,7 @@ fn every_flag_is_composed_both_on_and_off() {
                 "has_floor",
                 "water",
                 "transparent",
+                "color_pass",
             ];
             for flag in flags {
                 variant.flag(flag, solid);
