@@ -273,10 +273,13 @@ fn a_retry_goes_back_with_half_the_step_and_can_be_resumed() {
     let told = place.told(&mut place.sliceflow(&["resume", "part", "--frames", "16"]), 0);
     assert!(told.contains("going on after frame 7"), "{told}");
     place.assert_same("whole", "part", "a run that was resumed after a retry");
-    assert_eq!(
-        place.manifest("part")["retries"],
-        place.manifest("whole")["retries"]
-    );
+    // Where many particles go wrong in one step, whichever thread is first tells of its own.
+    let retried = |run: &str| -> Vec<Value> {
+        let retries = place.manifest(run)["retries"].as_array().unwrap().clone();
+        let told = |retry: &Value| json!([retry["from_frame"], retry["step_s"]]);
+        retries.iter().map(told).collect()
+    };
+    assert_eq!(retried("part"), retried("whole"));
 }
 
 /// Where smaller steps do not help either, it stops as without retries.

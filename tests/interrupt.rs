@@ -113,7 +113,7 @@ fn what_is_waited_for_is_told() {
 #[test]
 fn long_frames_resume_to_the_same_bytes() {
     let place = place();
-    let long = ["--set", "time.fps=0.4", "--set", "time.duration=7.5"];
+    let long = ["--set", "time.fps=0.4", "--set", "time.duration=25"];
     place.told(&mut place.run("whole", &long), 0);
     let mut run = start(&mut place.run("run", &long));
     let patience = Instant::now();

@@ -51,7 +51,10 @@ fn picture(gpu: &Gpu, scene: &Scene, neighbors: u32) -> (RgbaImage, Buffers) {
     (overlay.finish(pixels, &Caption::default()).unwrap(), buffers)
 }
 
-const INSIDE: u32 = 200;
+/// Neighbors of particles that belong to the water and are seen.
+fn inside(scene: &Scene) -> u32 {
+    (0.8 * scene.usual_neighbors(1.0)) as u32
+}
 
 #[test]
 fn a_tank_at_rest_has_a_flat_surface_that_faces_up_and_is_not_floor() {
@@ -60,7 +63,7 @@ fn a_tank_at_rest_has_a_flat_surface_that_faces_up_and_is_not_floor() {
         "render.camera.eye=[0.3,1.2,1.6]",
         "render.camera.target=[0.3,0.2,0.2]",
     ]);
-    let (image, buffers) = picture(&gpu, &scene, INSIDE);
+    let (image, buffers) = picture(&gpu, &scene, inside(&scene));
     let [width, height] = scene.render.size.map(|side| side as usize);
     let surface: Vec<f32> = readback::read(
         &gpu,
@@ -118,7 +121,7 @@ fn thickness_is_that_of_the_water_along_the_view() {
     let light = |background: &str| {
         let background = format!("render.background={background}");
         let scene = tank(&[&shared[..], &[&background]].concat());
-        let (image, _) = picture(&gpu, &scene, INSIDE);
+        let (image, _) = picture(&gpu, &scene, inside(&scene));
         let byte = f64::from(image.get_pixel(80, 74).0[1]) / 255.0;
         ((byte + 0.055) / 1.055).powf(2.4)
     };
@@ -138,18 +141,19 @@ fn particles_without_neighbors_are_white_and_small() {
     let one = r#"bodies=[{"shape":{"kind":"box","min":[0.25,0.2,0.15],"max":[0.3,0.25,0.2]}}]"#;
     let near = ["render.camera.axis=z", "render.camera.height=0.2", one];
     // Lit pixels, and how much bluer than red they are in the mean.
-    let seen = |spray: &str, neighbors| {
+    let seen = |spray: &str, alone: bool| {
         let spray = format!("render.water.spray={spray}");
         let scene = tank(&[&looks[..], &near, &[&spray]].concat());
         assert_eq!(scene.particles.len(), 1);
+        let neighbors = if alone { 0 } else { inside(&scene) };
         let (image, _) = picture(&gpu, &scene, neighbors);
         let lit: Vec<_> = image.pixels().filter(|p| p.0[2] > 40).collect();
         let blue = lit.iter().map(|p| f64::from(p.0[2]) - f64::from(p.0[0]));
         (lit.len(), blue.sum::<f64>() / lit.len().max(1) as f64)
     };
-    let (drop, white) = seen("true", 0);
-    let (_, clear) = seen("false", 0);
-    let (whole, _) = seen("true", 1000);
+    let (drop, white) = seen("true", true);
+    let (_, clear) = seen("false", true);
+    let (whole, _) = seen("true", false);
     assert!(
         drop > 50 && 4 * drop < whole,
         "{drop} pixels alone, {whole} inside"
@@ -352,7 +356,7 @@ fn a_moving_camera_sees_the_same_water() {
     let heights = ["0.8", "1.6"].map(|height| {
         let height = format!("render.camera.height={height}");
         let scene = tank(&["render.camera.axis=y", &height]);
-        let (_, buffers) = picture(&gpu, &scene, INSIDE);
+        let (_, buffers) = picture(&gpu, &scene, inside(&scene));
         let surface: Vec<f32> =
             readback::read(&gpu, buffers.get("water_surface", "(test)").unwrap(), 160 * 120).unwrap();
         f64::from(surface[60 * 160 + 80])

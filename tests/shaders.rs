@@ -557,7 +557,10 @@ fn every_flag_is_composed_both_on_and_off() {
                 "has_floor",
                 "water",
                 "transparent",
+                "solid_floor",
+                "has_obstacles",
                 "color_pass",
+                "blurred",
             ];
             for flag in flags {
                 variant.flag(flag, solid);
@@ -565,6 +568,7 @@ fn every_flag_is_composed_both_on_and_off() {
             variant
                 .constant("SHADOW_TEXELS", 1024)
                 .constant("OCCLUSION_BLOCK", 8)
+                .role("seen_particle", "render/passes/seen_sphere")
                 .role("column", "fields/id/color");
             for path in compose::files().iter().filter(|path| path.starts_with("render/")) {
                 see(path, &variant);
