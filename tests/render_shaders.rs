@@ -46,6 +46,7 @@ fn variants() -> Vec<Variant> {
                 .flag("transparent", transparent)
                 .flag("solid_floor", solid && !transparent)
                 .flag("has_obstacles", solid)
+                .flag("floating_bodies", water)
                 .flag("color_pass", transparent)
                 .flag("blurred", water)
                 .role(
