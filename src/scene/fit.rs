@@ -24,7 +24,7 @@ pub struct Grains {
 }
 
 impl Grains {
-    fn keep(&mut self, kept: &[bool]) {
+    pub fn keep(&mut self, kept: &[bool]) {
         let mut marks = kept.iter();
         self.position.retain(|_| *marks.next().unwrap_or(&true));
         let mut marks = kept.iter();
@@ -106,7 +106,7 @@ pub fn reach(radius: f64) -> f64 {
 }
 
 /// Removes grains that are not `kept`, since they overlap `other`.
-pub fn keep_free(path: &str, grains: &mut Grains, kept: &[bool], other: &str, report: &mut Report) {
+fn keep_free(path: &str, grains: &mut Grains, kept: &[bool], other: &str, report: &mut Report) {
     let (all, removed) = (kept.len(), kept.iter().filter(|kept| !**kept).count());
     grains.keep(kept);
     lost(path, removed, all, other, report);

@@ -110,7 +110,7 @@ pub fn surface(
     Some((Arc::new(Surface { shape, color }), solid))
 }
 
-/// Removes fluid that begins inside of bodies or reaches into them.
+/// Removes fluid that begins inside of bodies or reaches into them: it makes room, which needs no note.
 pub fn remove_inside(
     path: &str,
     grains: &mut Grains,
@@ -131,7 +131,17 @@ pub fn remove_inside(
             })
         };
         let kept: Vec<bool> = grains.position.iter().map(is_free).collect();
-        fit::keep_free(path, grains, &kept, &format!("bodies[{}]", same[0].index), report);
+        if !kept.is_empty() && !kept.contains(&true) {
+            report.problem(
+                path,
+                format!(
+                    "begins inside of bodies[{}], which leaves none of it",
+                    same[0].index
+                ),
+                "move one of them, or remove one",
+            );
+        }
+        grains.keep(&kept);
     }
 }
 
