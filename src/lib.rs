@@ -18,18 +18,19 @@
 //! - `src/files.rs`: files that others name: none that never ends is read, nothing is written through a link.
 //! - `src/scene/`: what a user writes (`src/scene/model.rs`), checked against its own schema (`src/scene/check.rs`),
 //!   explained key by key (`src/scene/keys.rs`), made into numbers (`src/scene/validate.rs`); shapes, meshes and files
-//!   become particles, and rigid bodies of these (`src/scene/rigid.rs`). Points alone are a scene without physics
-//!   (`src/scene/points.rs`). What a particle has is a row of `src/scene/field.rs`, what events may change a row of `src/scene/changes.rs`. How many particles, how much memory and which
-//!   files a scene may ask for (`src/scene/allowance.rs`) is settled before anything is made of it.
+//!   become particles, and rigid bodies of these (`src/scene/rigid.rs`; those in a fluid, `src/scene/floating.rs`). Points alone
+//!   are a scene without physics (`src/scene/points.rs`). What a particle has is a row of `src/scene/field.rs`, what events may
+//!   change a row of `src/scene/changes.rs`. How many particles, how much memory and which files a scene may ask for
+//!   (`src/scene/allowance.rs`) is settled before anything is made of it.
 //! - `src/gpu/`: the only user of wgpu. Shaders are composed (`src/gpu/compose.rs`) and reflected
 //!   (`src/gpu/reflect.rs`); a pass binds buffers by the name that they have everywhere (`src/gpu/pass.rs`).
 //! - `src/neighbors/`: neighbor search = `src/neighbors/addressing.rs` × `src/neighbors/storage.rs`.
 //!   Neighbor lists serve several steps (`src/neighbors/lists.rs`). `src/neighbors/occupancy/` counts on the host what
 //!   each grid needs for any positions.
-//! - `src/physics/`: solvers, each a row of the table in `src/physics/model.rs`: grains (`src/physics/dem.rs`), rigid bodies made of
-//!   them (`src/physics/bodies.rs`) and obstacles,
-//!   weakly compressible fluids (`src/physics/fluid.rs`) and incompressible ones (`src/physics/dfsph.rs`) with their
-//!   smoothing kernels (`src/physics/kernels.rs`). Buffers and shader modules that fields are made into
+//! - `src/physics/`: solvers, each a row of the table in `src/physics/model.rs`: grains (`src/physics/dem.rs`),
+//!   rigid bodies made of them (`src/physics/bodies.rs`) and obstacles, weakly compressible fluids (`src/physics/fluid.rs`) and
+//!   incompressible ones (`src/physics/dfsph.rs`; honey, `src/physics/implicit_viscosity.rs`; bodies that float,
+//!   `src/physics/floating.rs`) with their smoothing kernels (`src/physics/kernels.rs`). Buffers and shader modules that fields are made into
 //!   (`src/physics/fields.rs`). Steps whose length the device chooses (`src/physics/step_control.rs`). Probes of sensors, and what
 //!   their readings mean (`src/physics/sensors.rs`).
 //! - `src/surface/`: a surface around particles, made on the device: an implicit function in the voxels of a grid of its own,
@@ -55,7 +56,7 @@
 //! - `src/cli/`: one file a command.
 //!
 //! `shaders/` mirrors this: `shaders/common/`, `shaders/cells/` (addressing), `shaders/storage/`, `shaders/physics/`,
-//! `shaders/render/`; `shaders/probes/` measure what an adapter can do at best.
+//! `shaders/surface/`, `shaders/render/`; `shaders/probes/` measure what an adapter can do at best.
 //!
 //! # Cargo features
 //!

@@ -230,12 +230,30 @@ fn a_splash_in_deep_water_gives_no_energy() {
     assert!(iterations < 2 * steps, "{iterations} in {steps} steps");
 }
 
+fn still_water(overrides: &[&str]) -> Scene {
+    let text = include_str!("../assets/scenes/still_water.json");
+    let all = [&["fluid.solver=dfsph", "time.fps=1"], overrides].concat();
+    load::parse(
+        text,
+        "still_water",
+        Path::new("."),
+        &all.into_iter().map(str::to_owned).collect::<Vec<_>>(),
+    )
+    .expect("a scene")
+}
+
+/// Steps that its pressure cannot follow would throw it about.
+#[test]
+fn deep_water_stays_at_rest_whatever_steps_a_scene_allows() {
+    let scene = still_water(&["fluid.courant_number=1", "time.duration=2"]);
+    let (_, frames) = frames(&scene, 2);
+    let fastest = frames[2].statistics.expect("statistics").max_speed;
+    assert!(fastest < 1e-3, "{fastest} of √(gH)");
+}
+
 #[test]
 fn deep_water_at_rest_has_the_pressure_of_the_column_above() {
-    let text = include_str!("../assets/scenes/still_water.json");
-    let overrides = ["fluid.solver=dfsph", "time={\"duration\":5,\"fps\":1}"];
-    let scene =
-        load::parse(text, "still_water", Path::new("."), &overrides.map(str::to_owned)).expect("a scene");
+    let scene = still_water(&["time.duration=5"]);
     let (simulation, frames) = frames(&scene, 5);
     let particles = simulation.particles().expect("particles");
     let pressures = simulation.pressures().expect("pressures");

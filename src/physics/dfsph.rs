@@ -5,10 +5,9 @@
 //! approximate projection (Cummins and Rudman 1999), whose Laplacian joins neighbors only, so that pressures of neighbors cannot
 //! come apart (`shaders/physics/dfsph/relax.wgsl`). What it does not see is a remainder, which one iteration a step keeps up
 //! (`shaders/physics/dfsph/remainder.wgsl`). A second loop corrects where particles go, so that densities do not exceed the
-//! rest density; what it corrects does not become motion. Viscosity that would make steps much shorter is implicit: a loop before
-//! pressure finds what it does (`shaders/physics/dfsph/damp.wgsl`). Loops are recorded as often as they may run; the device lets the rest
-//! run on nothing once they have converged (`shaders/physics/dfsph/control.wgsl`). Pressures are never negative, so the fluid
-//! has free surfaces.
+//! rest density; what it corrects does not become motion. Viscosity that would make steps much shorter is implicit
+//! (`src/physics/implicit_viscosity.rs`). Loops are recorded as often as they may run; the device lets the rest run on nothing
+//! once they have converged (`shaders/physics/dfsph/control.wgsl`). Pressures are never negative, so the fluid has free surfaces.
 
 use super::collider::Obstacles;
 use super::dem::has_wall;
@@ -16,14 +15,14 @@ use super::floating;
 use super::fluid::{
     self, FLAG, body_velocity, boundary, coefficients, given, kernel_file, measure, measures, rim_of,
 };
+use super::implicit_viscosity;
 use super::kernels;
-use super::layout::{Convergence, Damping, Dfsph, Fluid, PACKED_BYTES};
+use super::layout::{Convergence, Dfsph, Fluid, PACKED_BYTES};
 use super::model::{Model, Request, Solver, Written};
 use super::sensors;
 use crate::gpu::{BufferPlan, Items, PassPlan, Repeat, Variant};
 use crate::neighbors::storage;
 use crate::scene::model::{FluidSolver, Slip, Wall};
-use crate::scene::text::number;
 use crate::scene::{self, Matter, Scene};
 
 /// Sums that the errors of all particles are added to.
@@ -64,6 +63,24 @@ fn parameters(scene: &Scene, matter: &Matter) -> Vec<Written> {
     ]
 }
 
+pub(super) const WATCH: &str = "whether the loop goes on, so that its checks run";
+
+pub(super) fn pass(file: &str, entry: &str, items: Items, why: &str) -> PassPlan {
+    PassPlan::new(&format!("physics/dfsph/{file}"), entry, items, why)
+}
+
+/// A pass of a loop, recorded as often as the loop may run; a sparse one at its powers of two.
+pub(super) fn repeated(fluid: &scene::fluid::Fluid, number: u32, sparse: bool, pass: PassPlan) -> PassPlan {
+    PassPlan {
+        repeat: Some(Repeat {
+            number,
+            times: fluid.max_iterations,
+            sparse,
+        }),
+        ..pass
+    }
+}
+
 /// What such a fluid needs.
 fn plan(request: &Request, variant: &mut Variant) -> Solver {
     let &Request {
@@ -102,7 +119,6 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         .flag("rim", rim)
         .flag("faces", faces)
         .flag("statistics", statistics);
-    let bodies = scene::floating::are_in(scene);
 
     let mut solver = Solver {
         obstacles: Obstacles::of_boundary_particles(scene),
@@ -173,22 +189,11 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         solver.buffers.push(body_velocity(scene, variant));
     }
 
-    let pass = |file: &str, entry, items, why: &str| {
-        PassPlan::new(&format!("physics/dfsph/{file}"), entry, items, why)
-    };
     let once = Items::Fixed(1);
     let all = Items::Particles;
     let free = Items::FreeParticles;
     let density = Items::Loop(DENSITY);
-    let repeated = |number, sparse, pass| PassPlan {
-        repeat: Some(Repeat {
-            number,
-            times: fluid.max_iterations,
-            sparse,
-        }),
-        ..pass
-    };
-    let watch = "whether the loop goes on, so that its checks run";
+    let repeated = |number, sparse, pass| repeated(fluid, number, sparse, pass);
     solver.before_search.push(pass(
         "apply_forces",
         "apply_forces",
@@ -196,93 +201,13 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         "velocities after all forces but pressure",
     ));
     if implicit {
-        let sections = if wall_shear {
-            4 + scene.dimensions.count() as u64
-        } else {
-            3
-        };
-        solver.buffers.extend([
-            BufferPlan::storage(
-                "damped",
-                sections * listed,
-                PACKED_BYTES,
-                "velocities before and after a sweep of viscosity, and what walls do to them",
-            ),
-            BufferPlan::storage(
-                "damping",
-                1,
-                Damping::LAYOUT.size as u64,
-                "where the loop of viscosity is",
-            ),
-            BufferPlan::storage(
-                "shear_bound",
-                1,
-                4,
-                "a bound of what viscosity multiplies velocities by",
-            ),
-        ]);
-        solver.notes.push(why_implicit(scene, fluid));
-        solver.before_search.extend([
-            pass(
-                "begin_damping",
-                "begin_damping",
-                free,
-                "what walls do in the loop of viscosity",
-            ),
-            pass(
-                "control",
-                "begin_viscosity_loop",
-                once,
-                "the loop of viscosity begins",
-            ),
-            repeated(
-                VISCOSITY,
-                true,
-                pass("control", "watch_viscosity_loop", once, watch),
-            ),
-            repeated(
-                VISCOSITY,
-                false,
-                pass(
-                    "damp",
-                    "damp",
-                    Items::Loop(VISCOSITY),
-                    "a sweep over the equation of viscosity, and its errors",
-                ),
-            ),
-            repeated(
-                VISCOSITY,
-                false,
-                pass(
-                    "control",
-                    "check_viscosity",
-                    Items::LoopOnce(VISCOSITY),
-                    "whether velocities have converged",
-                ),
-            ),
-            repeated(
-                VISCOSITY,
-                false,
-                pass(
-                    "damp",
-                    "damp_again",
-                    Items::LoopSecond(VISCOSITY),
-                    "the next sweep",
-                ),
-            ),
-            pass(
-                "begin_damping",
-                "end_damping",
-                free,
-                "velocities after all forces but pressure",
-            ),
-        ]);
+        solver
+            .buffers
+            .extend(implicit_viscosity::buffers(scene, listed, wall_shear));
+        solver.notes.push(implicit_viscosity::why(scene, fluid));
+        solver.before_search.extend(implicit_viscosity::passes(fluid));
     }
-    // In a scene with rigid bodies.
-    let with_bodies = |passes: [PassPlan; 2]| passes.into_iter().filter(move |_| bodies);
-    if bodies {
-        solver.before_search.extend(floating::begin());
-    }
+    solver.before_search.extend(floating::begin(scene));
     solver.before_search.extend([
         pass(
             "divergence",
@@ -294,11 +219,10 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         repeated(
             DIVERGENCE,
             true,
-            pass("control", "watch_divergence_loop", once, watch),
+            pass("control", "watch_divergence_loop", once, WATCH),
         ),
     ]);
-    let answer = |second| with_bodies(floating::answer(second)).map(|pass| repeated(DIVERGENCE, false, pass));
-    solver.before_search.extend(answer(false));
+    solver.before_search.extend(floating::answer(scene, fluid, false));
     solver.before_search.extend([
         repeated(
             DIVERGENCE,
@@ -321,7 +245,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             ),
         ),
     ]);
-    solver.before_search.extend(answer(true));
+    solver.before_search.extend(floating::answer(scene, fluid, true));
     solver.before_search.extend([
         repeated(
             DIVERGENCE,
@@ -346,14 +270,14 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             "pressures change velocities",
         ),
     ]);
-    solver.before_search.extend(with_bodies(floating::push(false)));
-    solver.before_search.extend([pass(
+    solver.before_search.extend(floating::push(scene, false));
+    solver.before_search.push(pass(
         "remainder",
         "find_remainder",
         free,
         "divergence that the compact equation does not see",
-    )]);
-    solver.before_search.extend(with_bodies(floating::push(true)));
+    ));
+    solver.before_search.extend(floating::push(scene, true));
     solver
         .before_search
         .extend(request.sensors.then(|| sensors::force_pass(scene)).flatten());
@@ -370,7 +294,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             once,
             "the loop of density begins",
         ),
-        repeated(DENSITY, true, pass("control", "watch_density_loop", once, watch)),
+        repeated(DENSITY, true, pass("control", "watch_density_loop", once, WATCH)),
         repeated(
             DENSITY,
             false,
@@ -411,9 +335,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
             .before_search
             .push(pass("move_boundary", "move_boundary", all, why));
     }
-    if bodies {
-        solver.before_search.push(floating::go());
-    }
+    solver.before_search.extend(floating::go(scene));
     solver.before_search.push(PassPlan::new(
         "physics/advance_clock",
         "advance_clock",
@@ -426,7 +348,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         free,
         "density by summation, and how it answers to pressure",
     ));
-    solver.after_search.extend(with_bodies(floating::find()));
+    solver.after_search.extend(floating::find(scene));
     if statistics {
         let why = "where energies are zero";
         solver
@@ -435,27 +357,6 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     }
     solver.measure = measures(request);
     solver
-}
-
-/// What a plan says of implicit viscosity.
-fn why_implicit(scene: &Scene, fluid: &scene::fluid::Fluid) -> String {
-    let greatest = scene
-        .matters()
-        .map(|matter| given(matter).materials[0])
-        .map(|material| material.viscosity / material.density)
-        .fold(0.0, f64::max);
-    let explicit = fluid.viscous_step(greatest);
-    let step = scene
-        .time
-        .adaptive
-        .as_ref()
-        .map_or(scene.time.step, |limits| limits.constant.0);
-    format!(
-        "viscosity is found implicitly, by a loop in each step (fluid.max_viscosity_error): explicitly it would allow steps of \
-         {} s at most, and all else allows {} s",
-        number(explicit),
-        number(step)
-    )
 }
 
 /// The loops' numbers for the shaders.

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
+use super::floating;
 use super::frame::{Frame, Report};
 use super::model::{
     self, DensityFrom, FluidSolver, Integrator, Kernel, NegativePressure, PressureForce, SceneFile, Slip,
@@ -124,11 +125,6 @@ pub struct Speeds<'a> {
 /// it is: longer steps are too long for the pressure of fluid at rest. Columns of 50 particles were at rest with 0.64, had a flaw
 /// with 0.70, and exploded with 0.77.
 const MOST_OF_FALL: f64 = 0.57;
-
-/// Radians by which the springs of contacts of rigid bodies swing in a step (`shaders/physics/dfsph/bodies/begin.wgsl`).
-const CONTACT_RATE: f64 = 0.4;
-/// How far a body that lies on another one may sink into it, in spacings. With 0.04, bodies in a pile were pressed through walls.
-const SAG: f64 = 0.02;
 
 impl Fluid {
     pub fn new(given: &model::Fluid, frame: &Frame, speeds: &Speeds, report: &mut Report) -> Self {
@@ -263,7 +259,7 @@ impl Fluid {
             has_bodies: !speeds.bodies.is_empty(),
             contact_step: match speeds.bodies {
                 [] => f64::INFINITY,
-                _ => CONTACT_RATE * (SAG * given.spacing / speeds.gravity.length()).sqrt(),
+                _ => floating::contact_step(given.spacing, speeds.gravity.length()),
             },
             viscosity_form: given.viscosity_form.unwrap_or_default(),
             free_surface: false,

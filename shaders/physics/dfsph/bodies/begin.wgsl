@@ -1,13 +1,14 @@
 // Velocities of rigid bodies after all but pressure: weight, viscosity of the fluid, and contacts.
 //
 // A contact is a spring with a dashpot and Coulomb's friction. The spring is as hard as steps can follow: it swings by
-// CONTACT_RATE radians in a step, and steps are so short that bodies do not sink into each other (scene::fluid). A body's
+// CONTACT_RATE radians in a step, and steps are so short that bodies do not sink into each other (scene::floating). A body's
 // contacts share its spring by their overlaps.
 #flag moves
 #import common/parameters
 #import physics/time_step
 #import physics/dfsph/loop
 #import physics/dfsph/bodies/contact
+#import host/contact_rate
 #import physics/dfsph/bodies/motion
 #if drag
 #import physics/dfsph/drag
@@ -15,8 +16,6 @@
 
 var<storage, read> member: array<Member>;
 
-// Radians in a step, of a body that is hit at its center; a corner is up to six times lighter.
-const CONTACT_RATE: f32 = 0.4;
 // Bodies bounce with about 0.3 of their speed.
 const DAMPING: f32 = 0.36; // share of the critical one
 const FRICTION: f32 = 0.3;
