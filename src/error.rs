@@ -191,7 +191,7 @@ impl fmt::Display for Error {
                 f,
                 "a shader of Sliceflow does not compile; this is a defect, please report it\n{message}"
             ),
-            Self::Guard(violation) => violation.fmt(f),
+            Self::Guard(violation) => write!(f, "{violation}\n  what was written before stays"),
             Self::Different => write!(f, "the runs differ"),
             Self::Incomparable(reason) => reason.fmt(f),
             Self::Interrupted { kept } if kept.is_empty() => write!(f, "interrupted"),
@@ -226,7 +226,7 @@ impl fmt::Display for Violation {
         }
         write!(
             f,
-            "\n  likely cause: {}\n  help: {}\n  what was written before stays",
+            "\n  likely cause: {}\n  help: {}",
             self.likely_cause, self.help
         )
     }

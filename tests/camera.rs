@@ -108,7 +108,7 @@ fn ball() -> (Scene, Particles) {
     (scene, particles)
 }
 
-/// First and last column that is not black, and the brightest red.
+/// First and last column that is not black.
 fn extent(image: &RgbaImage) -> (u32, u32) {
     let lit = |&x: &u32| (0..120).any(|y| image.get_pixel(x, y).0[..3].iter().any(|&c| c > 8));
     let mut columns = (0..160).filter(lit);

@@ -253,6 +253,12 @@ fn what_floating_bodies_do_not_know_is_refused() {
         ),
         ("/bodies/1/rigid/color", json!("wood"), "is not a color"),
         (
+            "/render",
+            json!({ "passes": ["depth"] }),
+            "are in no extra images",
+        ),
+        ("/render", json!({ "shutter": 0.5 }), "have no motion blur"),
+        (
             "/bodies/1/rigid/copies",
             json!({ "counts": [2, 1], "step": [0.1, 0] }),
             "to others",

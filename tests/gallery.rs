@@ -49,6 +49,12 @@ fn what_is_there_stays_and_what_is_missing_is_made() {
         fs::metadata(&picture).unwrap().modified().unwrap(),
     ];
     assert_eq!(before, after);
+    gallery(&place, &["--only", "hopper", "--force"], 0);
+    assert!(
+        made("gallery/hopper/run.json") > before[0],
+        "it is not made again"
+    );
+    let before = [made("gallery/hopper/run.json")];
     // The drawing alone is missing.
     fs::remove_dir_all(place.path("gallery/hopper_picture")).unwrap();
     gallery(&place, &["--only", "hopper"], 0);

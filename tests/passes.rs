@@ -169,6 +169,39 @@ fn a_ball_and_a_box_are_where_rays_meet_them() {
     assert!(told["about"].as_str().unwrap().contains("m/s"), "{told}");
 }
 
+/// The floor goes on behind everything else that is drawn.
+#[test]
+fn depths_in_pngs_reach_as_far_as_the_floor() {
+    let place = Place::new();
+    write(&place, "ball.json", BALL);
+    let run = |kind: &str| {
+        let set = [
+            "--set",
+            "render.background=studio",
+            "--set",
+            "render.camera.eye=[0,2,4]",
+        ];
+        let run = ["run", "ball.json", "--frames", "1", "--passes", "depth"];
+        let files = ["--pass-files", kind, "-o", kind];
+        place.told(&mut place.sliceflow(&[&run[..], &set, &files].concat()), 0);
+    };
+    run("exr");
+    run("png");
+    let image = read(&place, "exr/frame_000000.exr");
+    let png = image::open(place.path("png/frame_000000.depth.png")).unwrap();
+    let numbers = png.into_luma16().into_raw();
+    let depths = (0..160 * 120).map(|pixel| image.at("Z", pixel));
+    let seen: Vec<(f64, u16)> = depths
+        .zip(numbers)
+        .filter(|(depth, _)| *depth != NOTHING)
+        .collect();
+    let farthest = seen.iter().map(|(depth, _)| *depth).fold(0.0, f64::max);
+    let nearest = seen.iter().map(|(depth, _)| *depth).fold(f64::MAX, f64::min);
+    assert!(farthest > 1.8 * nearest, "{nearest} to {farthest}: no floor");
+    let largest = seen.iter().map(|(_, number)| *number).max().unwrap();
+    assert!(largest < 65534, "the farthest depth, {farthest} m, is cut off");
+}
+
 #[test]
 fn pngs_hold_the_same_and_nothing_is_overwritten() {
     let place = Place::new();

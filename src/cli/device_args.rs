@@ -10,6 +10,11 @@ pub struct DeviceArgs {
 }
 
 impl DeviceArgs {
+    /// Whether an adapter was named.
+    pub fn is_given(&self) -> bool {
+        self.adapter.is_some()
+    }
+
     pub fn adapter(&self) -> AdapterChoice {
         self.adapter
             .as_deref()

@@ -131,6 +131,12 @@ pub fn main(args: &Args) -> Result<()> {
     };
     let scene = scene(args);
     let walls = scene.as_ref().map_or_else(Walls::default, Walls::of);
+    if args.device.is_given() && !args.on_device {
+        return Err(Error::usage(
+            "--adapter chooses where --on-device computes, and surfaces are made on the processor",
+            "add --on-device, or leave --adapter out",
+        ));
+    }
     let device = match args.on_device {
         true => Some(OnDevice::open(&args.device.adapter(), addressing(args))?),
         false => None,
@@ -160,7 +166,7 @@ pub fn main(args: &Args) -> Result<()> {
 fn cost(sum: &Figures, frames: u64) -> String {
     let mean = |sum: u64| sum / frames.max(1);
     format!(
-        "per frame: {} of {} voxels in memory, {} where the whole box would have {}; {} on the device",
+        "per frame: {} of {} voxels in memory, {} where the whole box would have {}; {} on the device, without the search",
         count(mean(sum.voxels)),
         count(mean(sum.box_voxels)),
         bytes(mean(sum.bytes)),

@@ -33,7 +33,8 @@ pub struct DiskBudget {
     end: u64,
     /// Bytes of a frame's files, the most so far.
     each: u64,
-    used: Option<u64>,
+    /// Bytes that all but checkpoints took at the last look.
+    frames: Option<u64>,
     frames_since: u64,
     frames_until: u64,
 }
@@ -97,7 +98,7 @@ impl DiskBudget {
             checkpoints: kept * checkpoint,
             end: CHART_BYTES * CHARTS_OF_A_SENSOR * scene.sensors.list.len() as u64 + RECORD_BYTES,
             each: particles as u64,
-            used: None,
+            frames: None,
             frames_since: 0,
             frames_until: 0,
         })
@@ -124,15 +125,22 @@ impl DiskBudget {
                 saved += size;
             }
         }
-        if let Some(video) = &self.video {
+        // One in the run's folder is among its files.
+        if let Some(video) = self
+            .video
+            .as_ref()
+            .filter(|video| !video.starts_with(&self.folder))
+        {
             let ending = video.extension().unwrap_or_default().to_string_lossy();
             used += size(video) + size(&video.with_extension(format!("part.{ending}")));
         }
-        if let Some(before) = self.used {
-            let each = used.saturating_sub(before) / self.frames_since.max(1);
+        // Checkpoints have room of their own.
+        let frames = used - saved;
+        if let Some(before) = self.frames {
+            let each = frames.saturating_sub(before) / self.frames_since.max(1);
             self.each = self.each.max(each);
         }
-        self.used = Some(used);
+        self.frames = Some(frames);
         self.frames_since = 0;
         let reserved = self.checkpoints.saturating_sub(saved) + self.end;
         let left = self.max.saturating_sub(used + reserved);
@@ -176,7 +184,7 @@ mod tests {
             checkpoints: 10_000,
             end: 0,
             each: 0,
-            used: None,
+            frames: None,
             frames_since: 0,
             frames_until: 0,
         };

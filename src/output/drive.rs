@@ -16,7 +16,7 @@ use super::post_mortem::{self, Autopsy};
 use super::progress::Progress;
 use super::record::Record;
 use super::resume::{newest, reach};
-use super::retry::{Retry, halved, halvings, shorten};
+use super::retry::{Retry, halved, halvings, is_of_use, shorten};
 use super::run::{Settings, checkpoint_files};
 use super::stopping::Stopping;
 use super::tally::Tally;
@@ -46,8 +46,6 @@ pub(super) struct Launch<'a> {
     pub wall_s: f64,
     /// When the run went back with half the step.
     pub retries: Vec<Retry>,
-    /// Whether a guard stops it for good, also where smaller steps may help.
-    pub is_last_attempt: bool,
 }
 
 /// Where a run begins.
@@ -82,7 +80,6 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         mut start,
         wall_s,
         retries,
-        is_last_attempt,
     } = launch;
     let settings = &settings;
     let halvings = halvings(&retries, start.state().map(|state| state.frame));
@@ -214,7 +211,15 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
     let outcome = run.finish_sinks(simulated);
     drop(simulation);
     if let Err(Error::Guard(violation)) = &outcome
-        && (is_last_attempt || !violation.may_come_of_steps())
+        && !run.manifest.configuration.as_ref().is_some_and(|configuration| {
+            is_of_use(
+                settings,
+                &run.manifest.retries,
+                &run.folder,
+                configuration,
+                violation,
+            )
+        })
     {
         run.examine(violation, &plan, settings, first);
     }
@@ -316,10 +321,13 @@ impl Run<'_> {
             match simulation.next_frame() {
                 Ok(frame) => frame.map_or(Ok(()), |frame| self.take(frame))?,
                 Err(Error::Interrupted { .. }) => given_up = true,
-                Err(error @ Error::Guard(_)) => {
-                    // Frames before that are on their way, unless one of them has gone wrong already.
-                    self.receive_all(simulation)?;
-                    return Err(error);
+                Err(Error::Guard(found)) => {
+                    // Frames on their way are from before that, or went wrong after it.
+                    return Err(match self.receive_all(simulation) {
+                        Err(Error::Guard(other)) if other.frame < found.frame => Error::Guard(other),
+                        Ok(()) | Err(Error::Guard(_)) => Error::Guard(found),
+                        Err(error) => error,
+                    });
                 }
                 Err(error) => return Err(error),
             }

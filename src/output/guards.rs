@@ -44,6 +44,9 @@ pub struct Guards {
     energy: Option<Energy>,
     /// Steps in a row that did not converge.
     unconverged: u32,
+    /// Whether the scene has a source of energy, once somebody asked.
+    #[serde(skip)]
+    has_source: Option<bool>,
 }
 
 /// Joules.
@@ -129,7 +132,7 @@ impl Guards {
 
     /// Energy that grows although nothing adds any.
     fn energy(&mut self, scene: &Scene, frame: &Frame, figures: &Statistics) -> Option<Story> {
-        if has_source(scene) {
+        if *self.has_source.get_or_insert_with(|| has_source(scene)) {
             return None;
         }
         let total = figures.kinetic_energy + figures.potential_energy;
@@ -150,9 +153,12 @@ impl Guards {
         let allowed = share * begun.scale + ROUNDING * figures.kinetic_energy;
         (gain > allowed).then(|| {
             let step = frame.step_s;
-            let help = match scene.fluid() {
-                Some(_) => "lower time.step, raise fluid.max_speed, or set fluid.negative_pressure to `clamp`",
-                None => "lower time.step, or raise time.steps_per_contact",
+            let help = match (scene.fluid(), scene.sound_speed()) {
+                (Some(_), Some(_)) => {
+                    "lower time.step, raise fluid.max_speed, or set fluid.negative_pressure to `clamp`"
+                }
+                (Some(_), None) => "lower fluid.courant_number or time.step",
+                (None, _) => "lower time.step, or raise time.steps_per_contact",
             };
             (
                 "energy",
@@ -193,8 +199,10 @@ fn has_source(scene: &Scene) -> bool {
             .surface_velocity
             .iter()
             .any(|v| *v != glam::Vec3::ZERO);
-    let falls_forever =
-        (0..3).any(|axis| scene.domain.sides[axis].contains(&Wall::Periodic) && scene.gravity[axis] != 0.0);
+    let repeats = |axis: usize| scene.domain.sides[axis].contains(&Wall::Periodic);
+    let falls_forever = scene
+        .gravities()
+        .any(|gravity| (0..3).any(|axis| repeats(axis) && gravity[axis] != 0.0));
     let pulls = scene
         .matters()
         .filter_map(|matter| matter.grains())
@@ -220,7 +228,10 @@ fn scale(scene: &Scene, frame: &Frame, figures: &Statistics) -> f64 {
     let particles = f64::from(frame.particles);
     let mass = (model(&scene.matter).particle_mass)(scene) * particles;
     let extent = (scene.domain.max - scene.domain.min).as_dvec3();
-    let below = scene.gravity.as_dvec3().max(glam::DVec3::ZERO).dot(extent) * mass;
+    let upwards = scene
+        .gravities()
+        .map(|gravity| gravity.as_dvec3().max(glam::DVec3::ZERO).dot(extent));
+    let below = upwards.fold(0.0, f64::max) * mass;
     let own = scene.fluid().map_or(0.0, |fluid| {
         let tension = fluid.materials.iter().map(|material| material.surface_tension);
         let faces = fluid.spacing.powi(scene.dimensions.count() as i32 - 1);
@@ -457,5 +468,14 @@ mod tests {
         assert_eq!(stopped(&scene, row([(100, 0.005); 4])), None);
         let late = row([(0, 0.0), (100, 0.05), (100, 0.05), (100, 0.05)]);
         assert_eq!(stopped(&scene, late), Some("unconverged"));
+    }
+
+    #[test]
+    fn gravity_that_turns_along_space_that_repeats_is_a_source() {
+        let sides = r#""max": [1, 1], "sides": { "x_min": "periodic", "x_max": "periodic" } }"#;
+        let chute = FLUID.replace(r#""max": [1, 1] }"#, sides);
+        assert!(!has_source(&scene(&chute)));
+        let event = r#""events": [{ "at": 1, "set": { "gravity": [3, -9] } }], "fluid""#;
+        assert!(has_source(&scene(&chute.replace(r#""fluid""#, event))));
     }
 }

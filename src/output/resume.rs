@@ -101,7 +101,6 @@ pub fn resume(recorded: &Recorded, more: &[String], settings: &Settings) -> Resu
         start,
         wall_s: recorded.wall_s,
         retries,
-        is_last_attempt: true,
     })
 }
 
@@ -164,7 +163,6 @@ pub fn branch(recorded: &Recorded, frame: u32, overrides: &[String], settings: &
         start: Start::With(Box::new(state)),
         wall_s: 0.0,
         retries: retries.collect(),
-        is_last_attempt: true,
     })
 }
 

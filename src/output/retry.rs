@@ -11,6 +11,7 @@ use super::configuration::Configuration;
 use super::drive::{self, Launch, Start};
 use super::folder::Folder;
 use super::progress::Progress;
+use super::record::names;
 use super::resume::{newest, part_from};
 use super::run::Settings;
 use crate::error::{Error, Result, Violation};
@@ -88,18 +89,34 @@ pub fn shorten(checkpoint: &mut Checkpoint, halvings: u32) {
 
 /// Drives a run to its end, or until a guard stops it for good.
 pub(super) fn drive(mut launch: Launch) -> Result<()> {
+    // As the user gave them: each attempt writes its video to a file of its own.
+    let settings = launch.settings.clone();
     loop {
-        let again = Again::of(&launch);
-        let may_retry = launch.settings.on_instability == OnInstability::Retry;
-        let made = halvings(&launch.retries, Some(u32::MAX));
-        launch.is_last_attempt = !may_retry || made >= MOST_HALVINGS;
+        let again = Again::of(&launch, settings.clone());
         match drive::drive(launch) {
-            Err(Error::Guard(violation)) if again.is_of_use(may_retry, made, &violation) => {
-                launch = again.launch(made + 1, violation)?;
+            Err(Error::Guard(violation)) if again.is_of_use(&violation) => {
+                launch = again.launch(violation)?;
             }
             outcome => return outcome,
         }
     }
+}
+
+/// Whether smaller steps may help a run that a guard has stopped, and can be tried.
+pub(super) fn is_of_use(
+    settings: &Settings,
+    retries: &[Retry],
+    folder: &Folder,
+    configuration: &Configuration,
+    violation: &Violation,
+) -> bool {
+    let has_checkpoint =
+        || names(folder.path()).is_ok_and(|names| names.iter().any(|name| name.starts_with("checkpoint_")));
+    settings.on_instability == OnInstability::Retry
+        && halvings(retries, Some(u32::MAX)) < MOST_HALVINGS
+        && violation.may_come_of_steps()
+        // A variant begins with a state of another run, which this one does not have any more.
+        && (configuration.variant_of.is_none() || has_checkpoint())
 }
 
 /// What of a launch the next one needs.
@@ -114,10 +131,10 @@ struct Again<'a> {
 }
 
 impl<'a> Again<'a> {
-    fn of(launch: &Launch<'a>) -> Self {
+    fn of(launch: &Launch<'a>, settings: Settings) -> Self {
         Self {
             scene: launch.scene,
-            settings: launch.settings.clone(),
+            settings,
             folder: launch.folder.clone(),
             configuration: launch.configuration.clone(),
             retries: launch.retries.clone(),
@@ -126,13 +143,20 @@ impl<'a> Again<'a> {
         }
     }
 
-    /// Whether smaller steps may help.
-    fn is_of_use(&self, may_retry: bool, made: u32, violation: &Violation) -> bool {
-        may_retry && made < MOST_HALVINGS && violation.may_come_of_steps()
+    fn is_of_use(&self, violation: &Violation) -> bool {
+        let Self {
+            settings,
+            folder,
+            configuration,
+            retries,
+            ..
+        } = self;
+        is_of_use(settings, retries, folder, configuration, violation)
     }
 
     /// The run once more, from its newest checkpoint on.
-    fn launch(mut self, halvings: u32, violation: Box<Violation>) -> Result<Launch<'a>> {
+    fn launch(mut self, violation: Box<Violation>) -> Result<Launch<'a>> {
+        let halvings = halvings(&self.retries, Some(u32::MAX)) + 1;
         let progress = Progress::new(self.settings.progress, self.scene.time.frames);
         progress.warn(&violation.to_string());
         let found = newest(
@@ -144,7 +168,7 @@ impl<'a> Again<'a> {
         )?;
         let is_variant = self.configuration.variant_of.is_some();
         if found.is_none() && is_variant {
-            // Its beginning is a state of another run, which this launch does not have any more.
+            // Its checkpoints are damaged.
             return Err(Error::Guard(violation));
         }
         let from_frame = found.as_ref().map(|checkpoint| checkpoint.state.frame);
@@ -179,7 +203,6 @@ impl<'a> Again<'a> {
             start,
             wall_s: self.wall_s + self.begun.elapsed().as_secs_f64(),
             retries: self.retries,
-            is_last_attempt: false,
         })
     }
 }

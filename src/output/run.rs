@@ -206,6 +206,5 @@ pub fn run(scene: &Scene, settings: &Settings) -> Result<()> {
         start: Start::Beginning,
         wall_s: 0.0,
         retries: Vec::new(),
-        is_last_attempt: true,
     })
 }

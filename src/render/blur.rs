@@ -1,6 +1,6 @@
 //! Frames that are the mean of several pictures: what moves while the shutter is open is blurred, and so is what the lens does
 //! not hold in focus. Each picture has particles, obstacles and camera where they are at a moment of its own, seen through a
-//! place of its own on the lens; so every look can be blurred.
+//! place of its own on the lens; so every look that is drawn from particles can be blurred.
 
 use glam::DVec2;
 

@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec2, DVec3, Mat4, Vec4};
 
 use super::layout::{Insets, Layout};
+use super::picture::{FLOOR_FADE, floor_height};
 use crate::scene::model::{Axis, Camera, CameraPoint, Projection, View};
 use crate::scene::motion::eased;
 use crate::scene::{ColliderShape, Dimensions, Scene};
@@ -95,10 +96,20 @@ pub fn depth_range(scene: &Scene) -> f64 {
     let moments = if scene.render.camera.moves() { 240 } else { 1 };
     let far = (0..moments).map(|k| {
         let time = scene.file.time.duration * f64::from(k) / f64::from(moments);
-        Sight::new(scene, layout.frame, layout.insets, time).far
+        let sight = Sight::new(scene, layout.frame, layout.insets, time);
+        sight.far.max(floor_depth(scene, &sight))
     });
     // Between these moments it may be a little farther.
     1.02 * far.fold(0.0, f64::max)
+}
+
+/// The greatest depth at which extra images show the floor: where half of its color is left.
+fn floor_depth(scene: &Scene, sight: &Sight) -> f64 {
+    let (low, high) = (scene.domain.min.as_dvec3(), scene.domain.max.as_dvec3());
+    let center = ((low + high) * 0.5).with_y(floor_height(scene));
+    let reach = 0.5 * (FLOOR_FADE[0] + FLOOR_FADE[1]) * (high - low).length();
+    let sideways = sight.forward.with_y(0.0).length();
+    sight.forward.dot(center - sight.eye) + reach * sideways
 }
 
 impl Sight {

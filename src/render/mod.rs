@@ -2,7 +2,9 @@
 //!
 //! A picture is made of few passes: shadows; what spheres surely hide; each particle's color; colliders, particles
 //! and lines into a supersampled texture; and the resolve into `frame_pixels`. Water takes the particles' place with passes
-//! of its own (`water.rs`). Nothing comes back but pixels, which [`Overlay`] finishes on an encoder thread.
+//! of its own (`water_stages.rs`), and so does a mesh around them (`mesh.rs`). Extra images come behind the picture
+//! (`passes.rs`); a blurred one is the mean of several (`blur.rs`). Nothing comes back but pixels, which [`Overlay`] finishes
+//! on an encoder thread.
 
 mod backdrop;
 pub mod blur;

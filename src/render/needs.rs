@@ -20,7 +20,7 @@ pub const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrg
 /// Half floats, which every adapter adds up.
 pub const THICKNESS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
 
-/// The same where an extra image wants its light as it is.
+/// The color target where an extra image wants its light as it is.
 const LINEAR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 /// Marks of what pixels see.
 pub const MARK_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;

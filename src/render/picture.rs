@@ -71,6 +71,9 @@ fn linear_color(color: Rgb, w: f32) -> [f32; 4] {
     [r, g, b, w]
 }
 
+/// From where on the floor fades, and where it ends, in diagonals of the domain.
+pub const FLOOR_FADE: [f64; 2] = [0.45, 1.5];
+
 /// Height of the floor: a hair under the domain, so that lines and planes on its lower side stay in front.
 pub fn floor_height(scene: &Scene) -> f64 {
     let size = (scene.domain.max - scene.domain.min).length();
@@ -125,8 +128,8 @@ impl Picture {
             color_scale: (1.0 / (high - low)) as f32,
             line_width: (1.7 * layout.scale).max(1.0) * antialias as f32,
             floor_height: floor_height(scene) as f32,
-            floor_fade_begin: (0.45 * diagonal) as f32,
-            floor_fade_end: (1.5 * diagonal) as f32,
+            floor_fade_begin: (FLOOR_FADE[0] * diagonal) as f32,
+            floor_fade_end: (FLOOR_FADE[1] * diagonal) as f32,
             near: sight.near as f32,
             far: sight.far as f32,
             antialias,

@@ -140,6 +140,18 @@ impl Scene {
             .and_then(|grains| grains.contact.friction.as_deref())
     }
 
+    /// Gravity at the start and as events change it, m/s².
+    pub fn gravities(&self) -> impl Iterator<Item = Vec3> {
+        let later = self
+            .schedule
+            .iter()
+            .filter_map(|scheduled| match &scheduled.action {
+                Action::SetParameters { gravity, .. } => Some(*gravity),
+                Action::Add(_) => None,
+            });
+        std::iter::once(self.gravity).chain(later)
+    }
+
     /// What particles are at the start and after each change, in order of time.
     pub fn matters(&self) -> impl Iterator<Item = &Matter> {
         let later = self

@@ -450,7 +450,7 @@ fn water(file: &SceneFile, frame: &Frame, report: &mut Report) {
 }
 
 /// Which extra images can be made, and what can be blurred.
-fn passes(render: &Render, report: &mut Report) {
+fn passes(render: &Render, has_floating_bodies: bool, report: &mut Report) {
     for (key, is_wanted) in [
         ("render.passes", !render.passes.is_empty()),
         ("render.shutter", render.shutter > 0.0),
@@ -462,6 +462,24 @@ fn passes(render: &Render, report: &mut Report) {
                 "this look has neither extra images nor blur",
                 "choose `splats`, `spheres` or `water`",
             );
+        }
+    }
+    if has_floating_bodies {
+        for (key, is_wanted, what) in [
+            (
+                "render.passes",
+                !render.passes.is_empty(),
+                "rigid bodies in a fluid are in no extra images",
+            ),
+            (
+                "render.shutter",
+                render.shutter > 0.0,
+                "rigid bodies in a fluid have no motion blur",
+            ),
+        ] {
+            if is_wanted {
+                report.problem(key, what, "leave it out, or leave out such bodies");
+            }
         }
     }
     if render.passes.is_empty() {
@@ -508,7 +526,8 @@ fn render(file: &SceneFile, frame: &Frame, report: &mut Report) -> Render {
             .push("render.show.slices: this grid has no slices, so none are drawn".into());
     }
     water(file, frame, report);
-    passes(&render, report);
+    let has_floating_bodies = file.fluid.is_some() && file.bodies.iter().any(|body| body.rigid.is_some());
+    passes(&render, has_floating_bodies, report);
     render.show.caption &= render.show.overlay;
     if render.light.is_some_and(|light| light == [0.0; 3]) {
         report.problem(

@@ -87,11 +87,23 @@ impl Simulation {
             );
         };
         let cause = "pressures push it on without end, or the time step is too long";
-        let help = "raise fluid.max_speed, lower time.step, or set fluid.negative_pressure to `clamp`";
+        let (what, help) = match self.scene.sound_speed() {
+            Some(_) => (
+                "a particle is more than a hundred times faster than sound in the fluid".to_owned(),
+                "raise fluid.max_speed, lower time.step, or set fluid.negative_pressure to `clamp`",
+            ),
+            None => (
+                format!(
+                    "a particle is more than {:.0} times faster than fluid.max_speed",
+                    RUNAWAY * fluid.sound_speed / fluid.max_speed
+                ),
+                "lower fluid.courant_number or time.step",
+            ),
+        };
         match speed > RUNAWAY * fluid.sound_speed {
             true => (
                 "runaway",
-                "a particle is more than a hundred times faster than sound in the fluid".into(),
+                what,
                 format!("{cause}; it has {step:.3e} s"),
                 help.into(),
             ),

@@ -13,6 +13,7 @@ use super::scene_args::size;
 use crate::error::{Error, Result};
 use crate::files;
 use crate::output::interrupt;
+use crate::output::text::quoted;
 use page::Shown;
 use scenes::{ENTRIES, Entry};
 
@@ -24,7 +25,7 @@ use scenes::{ENTRIES, Entry};
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
-    /// Makes this picture only: dam, droplet, bunny_shower, drum, hopper, bunnies, brick_wall, sand_heap (repeatable)
+    /// Makes this picture only (repeatable)
     #[arg(long, value_name = "NAME", value_parser = ENTRIES.map(|entry| entry.name))]
     only: Vec<String>,
     /// Size of pictures, pixels
@@ -143,8 +144,8 @@ impl<'a> Picture<'a> {
         let (run, drawing) = (recorded(&self.run), recorded(&self.drawing));
         let mut again = false;
         match &run {
-            Some(record) if is_finished(record) && was_called(record, &self.simulate) => {}
-            Some(record) if was_called(record, &self.simulate) => {
+            Some(record) if !args.force && is_finished(record) && was_called(record, &self.simulate) => {}
+            Some(record) if !args.force && was_called(record, &self.simulate) => {
                 self.call(
                     args,
                     program,
@@ -199,15 +200,17 @@ impl<'a> Picture<'a> {
     /// The picture, where it is there.
     fn shown(&self) -> Option<Shown<'a>> {
         let drawing = recorded(&self.drawing)?;
+        let run = recorded(&self.run).unwrap_or_default();
         let frame = drawing["last_frame"].as_u64()?;
         let file = format!("frame_{frame:06}.png");
         (is_finished(&drawing) && self.drawing.join(&file).exists()).then(|| Shown {
             entry: self.entry,
-            commands: [&self.simulate, &self.draw]
-                .map(|command| shell(command))
+            // Those that made it, which this call's may not be.
+            commands: [&run, &drawing]
+                .map(|record| shell(called(record).unwrap_or_default()))
                 .to_vec(),
             picture: format!("{}_picture/{file}", self.entry.name),
-            run: recorded(&self.run).unwrap_or_default(),
+            run,
             drawing,
         })
     }
@@ -230,18 +233,21 @@ fn is_finished(record: &Value) -> bool {
     record["status"] == "finished"
 }
 
-/// Whether a record is that of a command, but for options that change no file.
+/// The command of a record, without options that change no file.
+fn called(record: &Value) -> Option<Vec<&str>> {
+    let arguments = record["configuration"]["arguments"]
+        .as_array()
+        .or_else(|| record["command_line"].as_array())?;
+    let words = arguments.iter().skip(1).filter_map(Value::as_str);
+    Some(
+        words
+            .filter(|&word| word != "--force" && word != "--quiet")
+            .collect(),
+    )
+}
+
 fn was_called(record: &Value, command: &[String]) -> bool {
-    let arguments = match &record["configuration"]["arguments"] {
-        Value::Array(arguments) => arguments,
-        _ => match &record["command_line"] {
-            Value::Array(arguments) => arguments,
-            _ => return false,
-        },
-    };
-    let known = arguments.iter().skip(1).filter_map(Value::as_str);
-    let known = known.filter(|&word| word != "--force" && word != "--quiet");
-    known.eq(command.iter().map(String::as_str))
+    called(record).is_some_and(|words| words.into_iter().eq(command))
 }
 
 fn words(words: &[&str]) -> Vec<String> {
@@ -249,15 +255,10 @@ fn words(words: &[&str]) -> Vec<String> {
 }
 
 /// A command as a shell takes it.
-fn shell(command: &[String]) -> String {
-    let mut text = "sliceflow".to_owned();
-    for word in command {
-        let is_plain = |c: char| c.is_alphanumeric() || "/._-=,".contains(c);
-        text.push(' ');
-        match word.chars().all(is_plain) {
-            true => text.push_str(word),
-            false => text.push_str(&format!("'{}'", word.replace('\'', "'\\''"))),
-        }
-    }
-    text
+fn shell<W: AsRef<str>>(command: impl IntoIterator<Item = W>) -> String {
+    let words = command.into_iter().map(|word| quoted(Path::new(word.as_ref())));
+    std::iter::once("sliceflow".to_owned())
+        .chain(words)
+        .collect::<Vec<_>>()
+        .join(" ")
 }

@@ -47,7 +47,7 @@ pub struct Report {
     last_good_checkpoint: Option<String>,
     /// The picture, in the run's folder; null where none could be made.
     picture: Option<&'static str>,
-    /// Comes to the same violation.
+    /// Comes to the same guard in the same step.
     pub replay: String,
     /// Starts a variant from the last good frame; put the key to change in place of KEY=VALUE.
     pub try_a_change: String,

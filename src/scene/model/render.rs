@@ -30,7 +30,7 @@ pub struct Render {
     pub background: Background,
     /// What else pictures show.
     pub show: Show,
-    /// Extra images of each frame, for compositing. Text, lines, slices and water's refraction are in none but `color`.
+    /// Extra images of each frame, for compositing. Lines, slices and water's refraction are in none but `color`, text in none.
     pub passes: Vec<ImagePass>,
     /// Files that extra images are written to.
     pub pass_files: PassFiles,
