@@ -4,30 +4,14 @@ mod common;
 
 use std::path::Path;
 
+use common::{convergence, measured_frames as frames};
 use glam::Vec3;
 use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
-use sliceflow::physics::layout::Convergence;
-use sliceflow::plan::Wanted;
 use sliceflow::scene::{Scene, load};
-use sliceflow::simulation::{Frame, Simulation};
+use sliceflow::simulation::Frame;
 
 fn dfsph(dimensions: usize, overrides: &[&str]) -> Scene {
     common::fluid(dimensions, &[&["fluid.solver=dfsph"], overrides].concat())
-}
-
-/// Frames 0 to `last` with figures over all particles.
-fn frames(scene: &Scene, last: u32) -> (Simulation, Vec<Frame>) {
-    let wanted = Wanted {
-        statistics: true,
-        ..Default::default()
-    };
-    let mut simulation = common::simulate(scene, &wanted);
-    let frames = common::frames(&mut simulation, last);
-    (simulation, frames)
-}
-
-fn convergence(frame: &Frame) -> Convergence {
-    frame.convergence.expect("figures of the loops")
 }
 
 #[test]

@@ -5,31 +5,17 @@ mod common;
 use std::f64::consts::TAU;
 use std::path::Path;
 
+use common::{convergence, measured_frames as frames};
 use glam::{DVec3, Vec3};
-use sliceflow::physics::layout::Convergence;
 use sliceflow::plan::{Plan, Wanted};
 use sliceflow::scene::{Scene, load};
-use sliceflow::simulation::{Frame, Simulation};
+use sliceflow::simulation::Frame;
 
 fn parse(text: &str) -> Scene {
     match load::parse(text, "test.json", Path::new("."), &[]) {
         Ok(scene) => scene,
         Err(error) => panic!("{error}"),
     }
-}
-
-fn frames(scene: &Scene, last: u32) -> (Simulation, Vec<Frame>) {
-    let wanted = Wanted {
-        statistics: true,
-        ..Default::default()
-    };
-    let mut simulation = common::simulate(scene, &wanted);
-    let frames = common::frames(&mut simulation, last);
-    (simulation, frames)
-}
-
-fn convergence(frame: &Frame) -> Convergence {
-    frame.convergence.expect("figures of the loops")
 }
 
 fn is_implicit(scene: &Scene) -> bool {

@@ -1,5 +1,6 @@
 //! `bodies.csv`: where each rigid body of a scene is in each frame, and how it moves.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -58,12 +59,12 @@ fn header(dimensions: Dimensions) -> String {
     format!("{FIRST_COLUMNS},body,{own}\n")
 }
 
-/// How bodies moved in a frame of a run with this file, in the order of bodies; fewer where it has no such rows.
+/// How bodies moved in the frames of a run with this file, in the order of bodies; fewer where it lacks rows.
 ///
 /// # Errors
 ///
 /// Where the file cannot be read.
-pub fn read(file: &Path, frame: u32, dimensions: Dimensions) -> Result<Vec<BodyMotion>> {
+pub fn read(file: &Path, dimensions: Dimensions) -> Result<BTreeMap<u32, Vec<BodyMotion>>> {
     let text = std::fs::read_to_string(file).map_err(|error| {
         Error::usage(
             format!("{} cannot be read: {error}", file.display()),
@@ -72,11 +73,15 @@ pub fn read(file: &Path, frame: u32, dimensions: Dimensions) -> Result<Vec<BodyM
     })?;
     let numbers =
         |line: &str| -> Option<Vec<f64>> { line.split(',').map(|cell| cell.parse().ok()).collect() };
-    let rows = text.lines().skip(1).filter_map(numbers);
-    let of_frame = rows.filter(|row| row.get(2) == Some(&f64::from(frame)));
-    Ok(of_frame
-        .filter_map(|row| motion(row.get(4..)?, dimensions))
-        .collect())
+    let mut frames: BTreeMap<u32, Vec<BodyMotion>> = BTreeMap::new();
+    for row in text.lines().skip(1).filter_map(numbers) {
+        if let (Some(frame), Some(values)) = (row.get(2), row.get(4..))
+            && let Some(motion) = motion(values, dimensions)
+        {
+            frames.entry(*frame as u32).or_default().push(motion);
+        }
+    }
+    Ok(frames)
 }
 
 /// The reverse of [`values`].

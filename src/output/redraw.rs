@@ -179,6 +179,7 @@ pub fn redraw(
         progress.frame(&frame, &tally);
         Ok(())
     };
+    let mut motions = None;
     let mut draw = || -> Result<()> {
         for &frame in &frames {
             if interrupt::asked() {
@@ -195,8 +196,12 @@ pub fn redraw(
             let is_whole = snapshot.state.is_some();
             let mut state = state(&scene, frame, snapshot);
             if floating::are_in(&scene) && !is_whole {
-                let motions = bodies::read(&recorded.folder.join(bodies::NAME), frame, scene.dimensions)?;
-                let states = physics::bodies::states(&scene, &motions).ok_or_else(|| {
+                let known = match motions.take() {
+                    Some(known) => known,
+                    None => bodies::read(&recorded.folder.join(bodies::NAME), scene.dimensions)?,
+                };
+                let of_frame = motions.insert(known).get(&frame).map_or(&[][..], Vec::as_slice);
+                let states = physics::bodies::states(&scene, of_frame).ok_or_else(|| {
                     Error::usage(
                         format!("{} has not all rigid bodies of frame {frame}", bodies::NAME),
                         "draw from checkpoints (--checkpoint-every 1), or run again",

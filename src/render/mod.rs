@@ -173,7 +173,9 @@ impl Renderer {
                 let picture = picture(time, DVec2::ZERO);
                 let looks = colliders::looks(&self.scene, offsets);
                 stages.encode(gpu, buffers, encoder, &picture, &looks)?;
-                stages.encode_passes(gpu, encoder, &self.scene, &self.layout, &picture, time)?;
+                if let Some(passes) = &stages.passes {
+                    passes.encode(gpu, encoder, &self.scene, &self.layout, &picture, time)?;
+                }
             }
         }
         if let (Some(paint), Some(place)) = (&self.paint_pool, &self.layout.pool) {

@@ -1,7 +1,6 @@
 //! The passes that draw the scene, in order.
 
 use super::colliders;
-use super::layout::Layout;
 use super::mesh::{self, MeshStages};
 use super::needs::{BLOCK, Needs};
 use super::passes::PassStages;
@@ -26,7 +25,8 @@ pub struct Stages {
     occluders: Option<(wgpu::TextureView, Draw, Pass)>,
     draws: Vec<Placed>,
     particles: Particles,
-    passes: Option<PassStages>,
+    /// Extra images, behind the picture that they belong to.
+    pub(super) passes: Option<PassStages>,
     mesh: Option<Box<MeshStages>>,
 }
 
@@ -344,22 +344,6 @@ impl Stages {
             Particles::Water(stages) => stages.encode(encoder, picture),
         }
         Ok(())
-    }
-
-    /// Extra images, behind the picture that they belong to.
-    pub fn encode_passes(
-        &self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        scene: &Scene,
-        layout: &Layout,
-        picture: &Picture,
-        time: f64,
-    ) -> Result<()> {
-        match &self.passes {
-            Some(passes) => passes.encode(gpu, encoder, scene, layout, picture, time),
-            None => Ok(()),
-        }
     }
 }
 

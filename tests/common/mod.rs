@@ -9,6 +9,7 @@ use sliceflow::gpu::{AdapterChoice, Gpu};
 use sliceflow::neighbors::addressing::AddressingRow;
 use sliceflow::neighbors::storage::StorageRow;
 use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
+use sliceflow::physics::layout::Convergence;
 use sliceflow::plan::{Plan, Wanted};
 use sliceflow::scene::{Particles, Scene, load};
 use sliceflow::simulation::{Frame, Simulation};
@@ -109,6 +110,24 @@ pub fn frames(simulation: &mut Simulation, last: u32) -> Vec<Frame> {
         frames.push(frame);
     }
     frames
+}
+
+/// Frames 0 to `last` with figures over all particles.
+#[allow(dead_code)]
+pub fn measured_frames(scene: &Scene, last: u32) -> (Simulation, Vec<Frame>) {
+    let wanted = Wanted {
+        statistics: true,
+        ..Default::default()
+    };
+    let mut simulation = simulate(scene, &wanted);
+    let frames = frames(&mut simulation, last);
+    (simulation, frames)
+}
+
+/// Of a fluid of `dfsph`.
+#[allow(dead_code)]
+pub fn convergence(frame: &Frame) -> Convergence {
+    frame.convergence.expect("figures of the loops")
 }
 
 /// Particles in a scene with open sides and nothing else in it.

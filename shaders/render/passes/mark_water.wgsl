@@ -1,7 +1,6 @@
 // Which particle of water the middle of each pixel sees: of the surface, or a drop.
 
 #import render/water/sphere
-#import render/water/surface_radius
 #import render/passes/marks
 
 struct MarkedCorner {
@@ -15,7 +14,7 @@ struct MarkedCorner {
 fn place_marked_water(@builtin(vertex_index) index: u32, @builtin(instance_index) i: u32) -> MarkedCorner {
     var marked: MarkedCorner;
     marked.clip = NOWHERE;
-    if is_drawn(i) {
+    if is_drawn(i) && !is_deep(i) {
         let corner = sphere_corner(index, i, surface_radius(i));
         marked = MarkedCorner(corner.clip, corner.point, corner.sphere, i + 1u);
     }

@@ -1,7 +1,6 @@
 // A particle of water, where the middle of a pixel sees it: the smoothed surface, or a drop.
 
 #import render/water/sphere
-#import render/water/surface_radius
 #import render/water/normal
 #import render/passes/surface
 

@@ -23,6 +23,16 @@ fn crowd(i: u32) -> f32 {
     return smoothstep(water.few, water.many, column(i));
 }
 
+// Of a particle's sphere in the surface: smaller where it has few neighbors, and that of a drop where it is one.
+fn surface_radius(i: u32) -> f32 {
+    return mix(water.drop_radius, water.radius, crowd(i));
+}
+
+// Whether others surround a particle on all sides: its sphere is behind theirs, wherever it is seen from.
+fn is_deep(i: u32) -> bool {
+    return column(i) >= water.deep;
+}
+
 // A corner of the square that covers a sphere.
 fn sphere_corner(index: u32, i: u32, radius: f32) -> Corner {
     var corner: Corner;

@@ -5,14 +5,13 @@
 
 var scene_depth: texture_depth_2d;
 
-// A particle of the surface, in between smaller where it has few neighbors. Those that others surround on all sides are behind
-// them.
+// A particle of the surface.
 @vertex
 fn place_water_surface(@builtin(vertex_index) index: u32, @builtin(instance_index) i: u32) -> Corner {
     var corner: Corner;
     corner.clip = NOWHERE;
-    if is_drawn(i) && !is_drop(i) && column(i) < water.deep {
-        corner = sphere_corner(index, i, mix(water.drop_radius, water.radius, crowd(i)));
+    if is_drawn(i) && !is_drop(i) && !is_deep(i) {
+        corner = sphere_corner(index, i, surface_radius(i));
     }
     return corner;
 }
