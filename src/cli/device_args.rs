@@ -10,11 +10,6 @@ pub struct DeviceArgs {
 }
 
 impl DeviceArgs {
-    /// Whether an adapter was named.
-    pub fn is_given(&self) -> bool {
-        self.adapter.is_some()
-    }
-
     pub fn adapter(&self) -> AdapterChoice {
         self.adapter
             .as_deref()

@@ -8,6 +8,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser as _};
 use super::device_args::DeviceArgs;
 use super::quiet_args::QuietArgs;
 use crate::error::{Error, Result};
+use crate::gpu::AdapterChoice;
 use crate::output::Recorded;
 use crate::output::surface::{
     MESH_FORMATS, MeshFormat, OnDevice, Sequence, SurfaceSettings, Walls, make_surfaces,
@@ -131,14 +132,15 @@ pub fn main(args: &Args) -> Result<()> {
     };
     let scene = scene(args);
     let walls = scene.as_ref().map_or_else(Walls::default, Walls::of);
-    if args.device.is_given() && !args.on_device {
+    let adapter = args.device.adapter();
+    if adapter != AdapterChoice::Best && !args.on_device {
         return Err(Error::usage(
             "--adapter chooses where --on-device computes, and surfaces are made on the processor",
             "add --on-device, or leave --adapter out",
         ));
     }
     let device = match args.on_device {
-        true => Some(OnDevice::open(&args.device.adapter(), addressing(args))?),
+        true => Some(OnDevice::open(&adapter, addressing(args))?),
         false => None,
     };
     let made = make_surfaces(&recorded, &walls, out, &settings, device.as_ref())?;
