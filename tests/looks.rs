@@ -6,7 +6,7 @@
 mod common;
 #[path = "common/place.rs"]
 mod place;
-#[path = "render/stage.rs"]
+#[path = "common/stage.rs"]
 mod stage;
 
 use std::fs;

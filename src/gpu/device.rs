@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::fault::{Faults, made, quietly};
 pub use super::limits::Limits;
+use super::pass::Kernels;
 use crate::error::{Error, Result};
 
 /// Which adapter to use: the best one, one by its index in `sliceflow devices`, or one by part of its name.
@@ -36,6 +37,7 @@ pub struct Gpu {
     pub has_timestamps: bool,
     /// Whether shaders are compiled with bounds checks and bounded loops (tests) or without (release).
     pub checked_shaders: bool,
+    pub(super) kernels: Kernels,
     faults: Faults,
 }
 
@@ -223,6 +225,7 @@ impl Gpu {
         .map_err(|error| Error::device(format!("{} gives no device: {error}", describe(&info)), another))?;
         Ok(Self {
             faults: Faults::watch(&device),
+            kernels: Kernels::default(),
             device,
             queue,
             limits,

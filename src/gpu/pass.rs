@@ -1,8 +1,12 @@
 //! A compute pass: an entry point of a shader, its buffers bound by name.
 
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
 use crate::error::Result;
 use crate::gpu::binding::{Bindings, Given};
-use crate::gpu::{Buffers, Gpu, Shader};
+use crate::gpu::compose::compose;
+use crate::gpu::{Buffers, Gpu, Shader, Variant};
 
 /// Bytes from one element of `pass_index` to the next; a multiple of every adapter's alignment of uniforms.
 pub const INDEX_STRIDE: u64 = 256;
@@ -16,8 +20,29 @@ pub struct Kernel {
     threads: u32,
 }
 
+/// What a device has compiled, by the text of the shader and the name of the entry point; clones share it.
+#[derive(Clone, Default)]
+pub(super) struct Kernels(Arc<Mutex<HashMap<(String, String), Kernel>>>);
+
 impl Kernel {
-    pub fn new(gpu: &Gpu, shader: &Shader, entry: &str) -> Result<Self> {
+    /// An entry point of `shaders/{path}.wgsl`. A device compiles each composed text once, for all who ask for it.
+    ///
+    /// # Errors
+    ///
+    /// A mistake in the shader, and what the adapter does not allow or the device refuses.
+    pub fn load(gpu: &Gpu, path: &str, variant: &Variant, entry: &str) -> Result<Self> {
+        let composed = compose(path, variant)?;
+        let key = (composed.text.clone(), entry.to_owned());
+        let kernels = || gpu.kernels.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(kernel) = kernels().get(&key) {
+            return Ok(kernel.clone());
+        }
+        let kernel = Self::new(gpu, &Shader::from_composed(&composed)?, entry)?;
+        kernels().insert(key, kernel.clone());
+        Ok(kernel)
+    }
+
+    fn new(gpu: &Gpu, shader: &Shader, entry: &str) -> Result<Self> {
         let bindings = Bindings::new(gpu, shader, &[entry])?;
         let module = shader.module(gpu)?;
         let pipeline = gpu.make(
@@ -96,21 +121,6 @@ pub struct Pass {
 }
 
 impl Pass {
-    pub fn new(gpu: &Gpu, shader: &Shader, entry: &str, buffers: &Buffers) -> Result<Self> {
-        Kernel::new(gpu, shader, entry)?.pass(gpu, buffers)
-    }
-
-    /// A pass that also reads textures, given by name.
-    pub fn with_textures(
-        gpu: &Gpu,
-        shader: &Shader,
-        entry: &str,
-        buffers: &Buffers,
-        textures: &[Given<'_>],
-    ) -> Result<Self> {
-        Kernel::new(gpu, shader, entry)?.pass_with(gpu, buffers, textures)
-    }
-
     /// Runs at least `items` threads. More groups than one dimension holds are folded into a second one, which
     /// `thread_index` of `common/thread.wgsl` unfolds.
     pub fn encode(&self, pass: &mut wgpu::ComputePass<'_>, items: u32) {

@@ -8,7 +8,7 @@ use super::needs::Needs;
 use super::stages::{dispatch, upload};
 use super::style::Style;
 use crate::error::Result;
-use crate::gpu::{Buffers, Gpu, Pass, Shader, Variant};
+use crate::gpu::{Buffers, Gpu, Kernel, Pass, Variant};
 use crate::scene::Scene;
 use crate::scene::field::Kind;
 use crate::shared_struct;
@@ -99,10 +99,8 @@ pub struct Blur {
 
 impl Blur {
     pub fn new(gpu: &Gpu, scene: &Scene, variant: &Variant, buffers: &Buffers) -> Result<Self> {
-        let pass = |label: &str| {
-            let shader = Shader::load(&format!("render/{label}"), variant)?;
-            Pass::new(gpu, &shader, label, buffers)
-        };
+        let pass =
+            |label: &str| Kernel::load(gpu, &format!("render/{label}"), variant, label)?.pass(gpu, buffers);
         let buffer = |name: &str| buffers.get(name, "render/move_particles.wgsl").cloned();
         Ok(Self {
             moments: moments(scene),

@@ -39,7 +39,7 @@ pub use text::over_white;
 pub use water::Water;
 
 use crate::error::{Error, Result};
-use crate::gpu::{Buffers, Gpu, Pass, Shader, Variant};
+use crate::gpu::{Buffers, Gpu, Kernel, Pass, Variant};
 use crate::physics::collider::offset_at;
 use crate::scene::model::View;
 use crate::scene::{Scene, color_maps};
@@ -62,6 +62,10 @@ pub struct Renderer {
     blur: Option<Blur>,
     /// Present where the view shows the index pool.
     paint_pool: Option<Pass>,
+}
+
+fn pool_pass(gpu: &Gpu, variant: &Variant, buffers: &Buffers) -> Result<Pass> {
+    Kernel::load(gpu, "render/pool", variant, "paint_pool")?.pass(gpu, buffers)
 }
 
 impl Renderer {
@@ -112,8 +116,7 @@ impl Renderer {
             Some(place) => {
                 let panel = PoolPanel::new(scene, &layout, place);
                 buffers.write(gpu, "pool_panel", 0, &[panel])?;
-                let shader = Shader::load("render/pool", &style.variant(scene, variant))?;
-                Some(Pass::new(gpu, &shader, "paint_pool", buffers)?)
+                Some(pool_pass(gpu, &style.variant(scene, variant), buffers)?)
             }
             None => None,
         };
@@ -130,8 +133,8 @@ impl Renderer {
     /// Takes over buffers of the grid that were made anew.
     pub fn rebind(&mut self, gpu: &Gpu, variant: &Variant, buffers: &Buffers) -> Result<()> {
         if self.paint_pool.is_some() {
-            let shader = Shader::load("render/pool", &self.style.variant(&self.scene, variant))?;
-            self.paint_pool = Some(Pass::new(gpu, &shader, "paint_pool", buffers)?);
+            let variant = self.style.variant(&self.scene, variant);
+            self.paint_pool = Some(pool_pass(gpu, &variant, buffers)?);
         }
         Ok(())
     }

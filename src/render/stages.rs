@@ -144,10 +144,6 @@ impl<'a> Maker<'a> {
         need.expect("a picture needs what it draws")
     }
 
-    fn shader(&self, label: &str) -> Result<Shader> {
-        Shader::load(&self.need(label).shader, self.variant)
-    }
-
     /// A draw into a color target, or of depth alone without `blend`.
     pub fn draw(&self, label: &str, topology: wgpu::PrimitiveTopology, blend: Option<Blend>) -> Result<Draw> {
         let format = |blend| match blend {
@@ -174,7 +170,7 @@ impl<'a> Maker<'a> {
         color: Option<(wgpu::TextureFormat, Blend)>,
     ) -> Result<Draw> {
         let fragment = self.need(label).fragment.as_deref();
-        let shader = self.shader(label)?;
+        let shader = Shader::load(&self.need(label).shader, self.variant)?;
         let style = DrawStyle { color, topology };
         Draw::new(
             self.gpu,
@@ -189,17 +185,17 @@ impl<'a> Maker<'a> {
 
     /// A compute pass that binds something else in each frame.
     pub fn kernel(&self, label: &str) -> Result<Kernel> {
-        Kernel::new(self.gpu, &self.shader(label)?, label)
+        Kernel::load(self.gpu, &self.need(label).shader, self.variant, label)
     }
 
     pub fn compute(&self, label: &str) -> Result<Pass> {
-        let shader = self.shader(label)?;
-        Pass::with_textures(self.gpu, &shader, label, self.buffers, &self.given())
+        self.kernel(label)?
+            .pass_with(self.gpu, self.buffers, &self.given())
     }
 
     /// A pass in which each `name` and `next_name` have changed places.
     pub fn flipped(&self, label: &str) -> Result<Pass> {
-        Kernel::new(self.gpu, &self.shader(label)?, label)?.flipped_pass(self.gpu, self.buffers)
+        self.kernel(label)?.flipped_pass(self.gpu, self.buffers)
     }
 }
 

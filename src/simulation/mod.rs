@@ -36,7 +36,7 @@ use crate::plan::Plan;
 use crate::render::Renderer;
 use crate::render::passes::images;
 use crate::scene::{Action, Matter, Scene};
-use passes::{Kernels, Passes, Step, recorded};
+use passes::{Passes, Step, recorded};
 use segments::{Segment, segments};
 use submissions::Submissions;
 
@@ -50,7 +50,6 @@ pub struct Simulation {
     plan: Plan,
     buffers: Buffers,
     passes: Passes,
-    kernels: Kernels,
     renderer: Option<Renderer>,
     ring: Ring<Pending>,
     timer: Option<Timer>,
@@ -134,11 +133,9 @@ impl Simulation {
             Some(view) => Some(Renderer::new(&gpu, &scene, &plan.variant, &mut buffers, view)?),
             None => None,
         };
-        let mut kernels = Kernels::default();
-        let passes = Passes::new(&gpu, plan, &buffers, &mut kernels)?;
+        let passes = Passes::new(&gpu, plan, &buffers)?;
         Ok(Self {
             passes,
-            kernels,
             buffers,
             renderer,
             ring: Ring::new(FRAMES_UNDER_WAY),

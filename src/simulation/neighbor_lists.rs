@@ -6,7 +6,7 @@ use super::Simulation;
 use crate::error::{Error, Result};
 use crate::gpu::buffers::Usage;
 use crate::gpu::readback::{self, Ring};
-use crate::gpu::{Buffers, Pass, Shader};
+use crate::gpu::{Buffers, Kernel, Pass};
 use crate::neighbors::{FROM_VOXELS, lists};
 use crate::scene::field::{Field, Travels};
 
@@ -56,7 +56,6 @@ impl Simulation {
             // Boundary particles out of reach have no lists.
             variant.role("candidates", FROM_VOXELS);
         }
-        let shader = Shader::load("storage/list_neighbors", &variant)?;
         let (gpu, buffers): (_, &mut Buffers) = (&self.gpu, &mut self.buffers);
         let slots = 4 * u64::from(self.scene.capacity);
         let part = LARGEST_PART.min(gpu.limits.binding).min(gpu.limits.buffer) / 4 * 4;
@@ -71,9 +70,10 @@ impl Simulation {
         }
         let radius = self.scene.search_radius() as f32;
         buffers.write(gpu, "search_radius", 0, &[radius])?;
+        let pass = |entry| Kernel::load(gpu, "storage/list_neighbors", &variant, entry)?.pass(gpu, buffers);
         let query = PairQuery {
-            count: Pass::new(gpu, &shader, "count_neighbors", buffers)?,
-            list: Pass::new(gpu, &shader, "list_neighbors", buffers)?,
+            count: pass("count_neighbors")?,
+            list: pass("list_neighbors")?,
             room: part as usize / 4,
         };
         let mut encoder = self.encoder("warm up");

@@ -170,7 +170,7 @@ impl Simulation {
                 _ => self.buffers.make(&self.gpu, buffer)?,
             }
         }
-        self.passes = Passes::new(&self.gpu, &plan, &self.buffers, &mut self.kernels)?;
+        self.passes = Passes::new(&self.gpu, &plan, &self.buffers)?;
         match (&mut self.renderer, plan.wanted.view) {
             (Some(renderer), _) if same_voxels => {
                 renderer.rebind(&self.gpu, &plan.variant, &self.buffers)?;

@@ -2,14 +2,13 @@
 
 use std::time::Instant;
 
-use super::kernels::Kernels;
 use super::layout::{Surface, SurfaceTotals};
 use super::{DEEP, FARTHEST, Lattice, Shape, cubes, radius, voxels};
 use crate::error::{Error, Result};
 use crate::gpu::binding::Given;
 use crate::gpu::buffers::Usage;
 use crate::gpu::compose::{SCAN_ITEMS, SCAN_THREADS};
-use crate::gpu::{Buffers, Gpu, Items, Pass, Variant, readback};
+use crate::gpu::{Buffers, Gpu, Items, Kernel, Pass, Variant, readback};
 use crate::neighbors::layout::SearchState;
 use crate::neighbors::{FROM_VOXELS, Grid, Room};
 
@@ -58,7 +57,6 @@ pub struct Figures {
 /// Makes surfaces, one after the other, with passes that are compiled once.
 pub struct SurfaceMaker {
     gpu: Gpu,
-    kernels: Kernels,
 }
 
 /// What one surface is made of on the way.
@@ -80,10 +78,7 @@ type Planned = (Pass, u32);
 
 impl SurfaceMaker {
     pub fn new(gpu: Gpu) -> Self {
-        Self {
-            gpu,
-            kernels: Kernels::default(),
-        }
+        Self { gpu }
     }
 
     /// Makes the mesh of the particles; it is empty where there are none.
@@ -148,12 +143,8 @@ impl SurfaceMaker {
         work.storage(&self.gpu, "block_sum", blocks(particles), 4)?;
         let mut passes = vec![self.particle_pass(work, "find_shell", particles)?];
         for (entry, threads) in scan(particles) {
-            let shader = ["surface/list_shell", entry];
-            let given = work.given();
-            let search = work.searched.buffers;
-            let pass = self
-                .kernels
-                .pass(&self.gpu, &work.search_variant, shader, search, &given)?;
+            let kernel = Kernel::load(&self.gpu, "surface/list_shell", &work.search_variant, entry)?;
+            let pass = kernel.pass_with(&self.gpu, work.searched.buffers, &work.given())?;
             passes.push((pass, threads));
         }
         self.run(&passes)?;
@@ -275,35 +266,31 @@ impl SurfaceMaker {
             .create(gpu, "vertex_value", 4 * u64::from(count.max(1)), Usage::Storage)?;
         let mut variant = particle_variant(searched.variant);
         variant.constant("COLUMN_WIDTH", width);
-        let shader = ["surface/blend_column", "blend_column"];
         let given = mesh.buffers.bindings();
-        let pass = self
-            .kernels
-            .pass(gpu, &variant, shader, searched.buffers, &given)?;
+        let kernel = Kernel::load(gpu, "surface/blend_column", &variant, "blend_column")?;
+        let pass = kernel.pass_with(gpu, searched.buffers, &given)?;
         self.run(&[(pass, mesh.vertices)])?;
         let found = mesh.buffers.get("vertex_value", "(host)")?;
         readback::read(&self.gpu, found, count as usize)
     }
 
     /// A pass over `surface/ENTRY`, which looks at particles.
-    fn particle_pass(&mut self, work: &Work<'_>, entry: &str, threads: u32) -> Result<Planned> {
-        let shader = format!("surface/{entry}");
-        let search = work.searched.buffers;
-        let pass = self.kernels.pass(
+    fn particle_pass(&self, work: &Work<'_>, entry: &str, threads: u32) -> Result<Planned> {
+        let kernel = Kernel::load(
             &self.gpu,
+            &format!("surface/{entry}"),
             &work.search_variant,
-            [&shader, entry],
-            search,
-            &work.given(),
+            entry,
         )?;
+        let pass = kernel.pass_with(&self.gpu, work.searched.buffers, &work.given())?;
         Ok((pass, threads))
     }
 
     /// A pass that looks at voxels of the surface.
-    fn voxel_pass(&mut self, work: &Work<'_>, shader: [&str; 2], threads: u32) -> Result<Planned> {
-        let pass = self
-            .kernels
-            .pass(&self.gpu, &work.voxel_variant, shader, &work.grid, &work.given())?;
+    fn voxel_pass(&self, work: &Work<'_>, shader: [&str; 2], threads: u32) -> Result<Planned> {
+        let [file, entry] = shader;
+        let kernel = Kernel::load(&self.gpu, file, &work.voxel_variant, entry)?;
+        let pass = kernel.pass_with(&self.gpu, &work.grid, &work.given())?;
         Ok((pass, threads))
     }
 

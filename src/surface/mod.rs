@@ -5,7 +5,6 @@
 //! The wish is Harada 2007's (Section 8): its grid should hold an implicit function that a surface is made from.
 
 mod cubes;
-mod kernels;
 pub mod layout;
 mod maker;
 mod voxels;

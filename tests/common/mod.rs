@@ -1,6 +1,7 @@
 //! What several test programs need.
 
 use std::path::Path;
+use std::sync::Mutex;
 
 use glam::Vec3;
 use rand::{Rng, SeedableRng};
@@ -44,10 +45,35 @@ fn parsed(text: &str, overrides: &[&str]) -> Scene {
     }
 }
 
+/// A device with all checks in the shaders. Tests that run at the same time have one each; those that come later get a device
+/// back with what it has compiled.
+#[allow(dead_code)]
+pub fn gpu() -> Gpu {
+    static FREE: Mutex<Vec<Gpu>> = Mutex::new(Vec::new());
+    /// Of one thread, which libtest makes for each test.
+    struct Lent(Gpu);
+    impl Drop for Lent {
+        fn drop(&mut self) {
+            FREE.lock().expect("devices").push(self.0.clone());
+        }
+    }
+    thread_local! {
+        static LENT: Lent = {
+            let free = FREE.lock().expect("devices").pop();
+            // One on which something went wrong fails no other test.
+            let works = free.filter(|gpu| gpu.wait(None).is_ok());
+            Lent(works.unwrap_or_else(|| {
+                Gpu::open(&AdapterChoice::Best, true).expect("tests need an adapter; software Vulkan will do")
+            }))
+        };
+    }
+    LENT.with(|lent| lent.0.clone())
+}
+
 /// A simulation of a scene on the test adapter, with all checks in the shaders.
 #[allow(dead_code)]
 pub fn simulate(scene: &Scene, wanted: &Wanted) -> Simulation {
-    let gpu = Gpu::open(&AdapterChoice::Best, true).expect("tests need an adapter; software Vulkan will do");
+    let gpu = gpu();
     let plan = Plan::new(scene, &gpu.limits, wanted).expect("a plan");
     Simulation::new(gpu, scene, &plan).expect("a simulation")
 }
@@ -59,7 +85,7 @@ pub type GridRows = (&'static AddressingRow, &'static StorageRow);
 /// Each way to address voxels with one way to keep particles; every way to keep them occurs. Each `shift` gives other pairs.
 ///
 /// Compiling shaders is what tests spend their time on, and every pair has some of its own. `random_points` of
-/// `tests/neighbors.rs` has all pairs.
+/// `tests/library/neighbors.rs` has all pairs.
 #[allow(dead_code)]
 pub fn grids_in_turn(shift: usize) -> Vec<GridRows> {
     let storages = STORAGES.iter().cycle().skip(shift);

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Result;
 use crate::gpu::buffers::Usage;
 use crate::gpu::timing::{Timer, median};
-use crate::gpu::{Buffers, Gpu, Groups, Pass, Shader, Variant};
+use crate::gpu::{Buffers, Gpu, Groups, Kernel, Pass, Variant};
 
 /// What the probes reached.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -56,8 +56,7 @@ fn copy(gpu: &Gpu, timer: &Timer, bytes: u64) -> Result<f64> {
     let mut buffers = Buffers::default();
     buffers.create(gpu, "copied_from", bytes, Usage::Storage)?;
     buffers.create(gpu, "copied_to", bytes, Usage::Storage)?;
-    let shader = Shader::load("probes/copy", &Variant::default())?;
-    let pass = Pass::new(gpu, &shader, "copy", &buffers)?;
+    let pass = Kernel::load(gpu, "probes/copy", &Variant::default(), "copy")?.pass(gpu, &buffers)?;
     let items = Groups::For((bytes / VECTOR_BYTES) as u32);
     let time = || milliseconds(gpu, timer, &pass, items);
     // The first run touches the memory and compiles.
@@ -70,8 +69,8 @@ fn multiply_and_add(gpu: &Gpu, timer: &Timer, least_ms: f64) -> Result<f64> {
     let mut buffers = Buffers::default();
     buffers.create(gpu, "computed", u64::from(THREADS) * VECTOR_BYTES, Usage::Storage)?;
     buffers.create(gpu, "turns", 4, Usage::Uniform)?;
-    let shader = Shader::load("probes/arithmetic", &Variant::default())?;
-    let pass = Pass::new(gpu, &shader, "multiply_and_add", &buffers)?;
+    let kernel = Kernel::load(gpu, "probes/arithmetic", &Variant::default(), "multiply_and_add")?;
+    let pass = kernel.pass(gpu, &buffers)?;
     let time = |turns: u32| {
         buffers.write(gpu, "turns", 0, &[turns])?;
         milliseconds(gpu, timer, &pass, Groups::For(THREADS))
