@@ -119,7 +119,6 @@ fn pressures_and_remainders_are_what_acts() {
             "domain.walls=open",
             "fluid.viscosity=0",
             "fluid.artificial_viscosity=0",
-            "time.adaptive=false",
         ];
         let mut scene = dfsph(dimensions, &given);
         let fluid = scene.fluid().expect("a fluid").clone();
@@ -137,6 +136,7 @@ fn pressures_and_remainders_are_what_acts() {
             *x += 0.1 * fluid.spacing as f32 * wave;
             scene.particles.velocity[k] = middle - *x;
         }
+        scene.time.adaptive = None;
         scene.time.steps_per_frame = 1;
         scene.time.fps = 1.0 / scene.time.step;
         let (simulation, frames) = frames(&scene, 1);
