@@ -117,12 +117,12 @@ impl Simulation {
     }
 
     fn crowded(&self) -> Story {
-        let room = contact_slots(self.scene.dimensions);
+        let room = contact_slots(&self.scene);
         (
             "crowded",
             "a grain touches more grains and walls than it can remember contacts".into(),
             format!(
-                "there is room for {room} of them, more than rigid grains can have: these overlap far too much"
+                "there is room for {room} of them, more than rigid grains usually have: these overlap far too much"
             ),
             "make them stiffer (grains.spring, or grains.young_modulus)".into(),
         )

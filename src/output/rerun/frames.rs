@@ -203,6 +203,10 @@ impl Frames {
             (point + shift).as_vec3().to_array()
         };
         let mut points = Points3D::new(shown.clone().map(point));
+        if let Some(Values::Float(radii)) = column("radius").map(|radius| &radius.values) {
+            let scale = self.scene.render.splat_scale as f32;
+            points = points.with_radii(shown.clone().map(|&id| scale * radii[id as usize]));
+        }
         if let Some(colored) = column(self.scene.color.column.name) {
             points = points.with_colors(shown.map(|&id| self.color(colored, id)));
         }
