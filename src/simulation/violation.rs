@@ -77,7 +77,7 @@ impl Simulation {
     }
 
     fn ran_away(&self, speed: f64, step: f64) -> Story {
-        let radii = speed * step / self.scene.radius();
+        let radii = speed * step * self.scene.size_ratio() / self.scene.radius();
         let Some(fluid) = self.scene.fluid() else {
             return (
                 "too_fast",
@@ -142,7 +142,7 @@ impl Simulation {
     }
 
     fn lost(&self, speed: f64, step: f64) -> Story {
-        let radii = speed * step / self.scene.radius();
+        let radii = speed * step * self.scene.size_ratio() / self.scene.radius();
         (
             "lost",
             "a particle left the domain through a closed side".into(),

@@ -21,13 +21,18 @@ pub fn points(scene: &Scene, snapshot: &Snapshot) -> Result<Layer, String> {
         .collect();
     let radius = scene.radius();
     put_places(&mut layer, &place, radius);
-    match snapshot.column("radius").filter(|_| scene.has_field("radius")) {
-        Some(column) => layer.put(
-            "float[] widths",
-            "interpolation = \"vertex\"",
-            numbers(column.values.iter().map(|&radius| finite(2.0 * radius))),
-        ),
-        None => layer.put(
+    match scene.has_field("radius") {
+        true => {
+            let column = snapshot
+                .column("radius")
+                .ok_or("it does not tell how large its grains are")?;
+            layer.put(
+                "float[] widths",
+                "interpolation = \"vertex\"",
+                numbers(column.values.iter().map(|&radius| finite(2.0 * radius))),
+            );
+        }
+        false => layer.put(
             "float[] widths",
             "interpolation = \"constant\"",
             numbers([2.0 * radius as f32]),
