@@ -302,7 +302,7 @@ mod tests {
         );
         let ways: Vec<Vec3> = found.shown[1..5]
             .iter()
-            .map(|(p, _)| *p - found.local())
+            .map(|(p, ..)| *p - found.local())
             .collect();
         let sum = ways.iter().fold(Vec3::ZERO, |sum, way| sum + *way);
         assert!(sum.length() < 1e-3 * spacing, "{ways:?}");
