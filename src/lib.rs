@@ -19,7 +19,8 @@
 //! - `src/scene/`: what a user writes (`src/scene/model.rs`), checked against its own schema (`src/scene/check.rs`),
 //!   explained key by key (`src/scene/keys.rs`), made into numbers (`src/scene/validate.rs`); shapes, meshes and files
 //!   become particles, and rigid bodies of these (`src/scene/rigid.rs`; those in a fluid, `src/scene/floating.rs`). Points alone
-//!   are a scene without physics (`src/scene/points.rs`). What a particle has is a row of `src/scene/field.rs`, what events may
+//!   are a scene without physics (`src/scene/points.rs`). Radii are drawn from distributions (`src/scene/sizes.rs`), and grains of
+//!   several sizes packed without order (`src/scene/shapes/packing.rs`). What a particle has is a row of `src/scene/field.rs`, what events may
 //!   change a row of `src/scene/changes.rs`. How many particles, how much memory and which files a scene may ask for
 //!   (`src/scene/allowance.rs`) is settled before anything is made of it.
 //! - `src/gpu/`: the only user of wgpu. Shaders are composed (`src/gpu/compose.rs`) and reflected

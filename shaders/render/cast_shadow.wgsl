@@ -14,7 +14,7 @@ struct Caster {
 fn cast_splat(@builtin(vertex_index) index: u32, @builtin(instance_index) i: u32) -> Caster {
     var caster: Caster;
     let center = picture.light_projection * vec4f(to_3d(unpack(position[i])), 1.0);
-    let texels = picture.radius / picture.light.w;
+    let texels = drawn_radius(i) / picture.light.w;
     caster.offset = strip_corner(index);
 #if round_shadows
     let half = texels;

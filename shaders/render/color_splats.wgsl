@@ -6,6 +6,7 @@
 #import <column>
 #import render/state
 #if occlusion
+#import render/drawn
 #import render/hidden
 #end
 
@@ -21,11 +22,11 @@ fn color_splats(thread: Thread) {
     var open = 255u;
 #if occlusion
     let center = to_3d(unpack(position[i]));
-    if is_hidden(center) {
+    if is_hidden(center, drawn_radius(i)) {
         splat[i] = 0u;
         return;
     }
-    open = max(u32(openness(center) * 255.0 + 0.5), 1u);
+    open = max(u32(openness(center, drawn_radius(i)) * 255.0 + 0.5), 1u);
 #end
     let share = saturate((column(i) - picture.color_low) * picture.color_scale);
     splat[i] = color_map[u32(share * 255.0 + 0.5)] | (open << 24u);

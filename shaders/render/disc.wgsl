@@ -17,7 +17,7 @@ struct Corner {
 fn place_disc(@builtin(vertex_index) index: u32, @builtin(instance_index) i: u32) -> Corner {
     var corner: Corner;
     let center = to_3d(unpack(position[i]));
-    let quad = splat_quad(center, picture.radius);
+    let quad = splat_quad(center, drawn_radius(i));
     corner.offset = strip_corner(index);
     let point = center + (quad.across * corner.offset.x + quad.up * corner.offset.y) * quad.half;
     corner.clip = picture.view_projection * vec4f(point, 1.0);

@@ -10,8 +10,8 @@ fn to_pixels(clip: vec4f) -> vec2f {
     return vec2f(0.5 + 0.5 * clip.x / clip.w, 0.5 - 0.5 * clip.y / clip.w) * vec2f(picture.rectangle.zw);
 }
 
-fn is_hidden(center: vec3f) -> bool {
-    let quad = splat_quad(center, picture.radius);
+fn is_hidden(center: vec3f, radius: f32) -> bool {
+    let quad = splat_quad(center, radius);
     var low = vec2f(1e9);
     var high = vec2f(-1e9);
     for (var c = 0u; c < 4u; c += 1u) {
@@ -28,7 +28,7 @@ fn is_hidden(center: vec3f) -> bool {
     if any(high < vec2f(0.0)) || any(low > size) {
         return true;
     }
-    let nearest = picture.view_projection * vec4f(center - picture.forward.xyz * picture.radius, 1.0);
+    let nearest = picture.view_projection * vec4f(center - picture.forward.xyz * radius, 1.0);
     if nearest.w <= 0.0 {
         return false;
     }
@@ -51,10 +51,10 @@ fn is_hidden(center: vec3f) -> bool {
 }
 
 // Share of the directions around a sphere, on screen, that no nearer sphere stands in: 0 to 1.
-fn openness(center: vec3f) -> f32 {
+fn openness(center: vec3f, radius: f32) -> f32 {
     let clip = picture.view_projection * vec4f(center, 1.0);
     let distance = select(1.0, clip.w, picture.eye.w > 0.5);
-    let radius = picture.radius * f32(picture.rectangle.w) / (2.0 * picture.lens.y * distance);
+    let pixels = radius * f32(picture.rectangle.w) / (2.0 * picture.lens.y * distance);
     let middle = to_pixels(clip);
     let depth = view_depth(clip.z / clip.w);
     let last = vec2f(picture.rectangle.zw) - 1.0;
@@ -62,9 +62,9 @@ fn openness(center: vec3f) -> f32 {
     for (var k = 0u; k < 12u; k += 1u) {
         // Two rings, at 1.7 and 3.4 radii.
         let angle = f32(k) * 1.0472;
-        let reach = select(1.7, 3.4, k >= 6u) * radius;
+        let reach = select(1.7, 3.4, k >= 6u) * pixels;
         let place = clamp(middle + vec2f(cos(angle + 0.3), sin(angle + 0.3)) * reach, vec2f(0.0), last);
-        let before = (depth - view_depth(textureLoad(occluder_depth, vec2u(place), 0))) / picture.radius;
+        let before = (depth - view_depth(textureLoad(occluder_depth, vec2u(place), 0))) / radius;
         // Nearer by a radius begins to cover; what is far in front belongs to something else.
         covered += saturate((before - 0.4) * 0.6) * saturate(3.0 - 0.25 * before);
     }

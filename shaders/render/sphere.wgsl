@@ -16,6 +16,9 @@ struct Corner {
     @location(2) @interpolate(flat) center: vec3f,
     @location(3) @interpolate(flat) albedo: vec3f,
     @location(4) @interpolate(flat) rho_openness: vec2f,
+#if sizes
+    @location(5) @interpolate(flat) radius: f32,
+#end
 }
 
 @vertex
@@ -25,12 +28,15 @@ fn place_sphere(@builtin(vertex_index) index: u32, @builtin(instance_index) i: u
     let look = splat[i];
     if look >= 0x1000000u && is_drawn(i) { // otherwise hidden
         let center = to_3d(unpack(position[i]));
-        let quad = splat_quad(center, picture.radius);
+        let quad = splat_quad(center, drawn_radius(i));
         let at = strip_corner(index);
         corner.offset = quad.across * at.x + quad.up * at.y;
         corner.clip = picture.view_projection * vec4f(center + corner.offset * quad.half, 1.0);
         corner.toward = quad.toward;
         corner.center = center;
+#if sizes
+        corner.radius = drawn_radius(i);
+#end
         corner.albedo = unpack_srgb(look);
         corner.rho_openness = vec2f(quad.rho, f32(look >> 24u) / 255.0);
     }
@@ -49,7 +55,12 @@ fn shade_sphere(corner: Corner) -> Surface {
         discard;
     }
     let normal = sphere_normal(corner.offset, corner.toward, corner.rho_openness.x);
-    let point = corner.center + picture.radius * normal;
+#if sizes
+    let radius = corner.radius;
+#else
+    let radius = picture.radius;
+#end
+    let point = corner.center + radius * normal;
     let clip = picture.view_projection * vec4f(point, 1.0);
     var surface: Surface;
     surface.depth = clip.z / clip.w;

@@ -4,6 +4,9 @@
 #import common/reach
 #import physics/present
 #import <candidates>
+#if sizes
+#import common/sizes
+#end
 
 var<storage, read> search_radius: f32;
 var<storage, read_write> neighbor_count: array<u32>;
@@ -12,6 +15,14 @@ var<storage, read> listed_slots: vec2u;
 // Where the list of each slot begins in `neighbor_id`, which holds those of the listed slots.
 var<storage, read> neighbor_start: array<u32>;
 var<storage, read_write> neighbor_id: array<u32>;
+
+fn reach_of(i: u32, j: u32) -> f32 {
+#if sizes
+    return pair_reach(i, j, search_radius);
+#else
+    return search_radius;
+#end
+}
 
 @compute @workgroup_size(GROUP_SIZE)
 fn count_neighbors(thread: Thread) {
@@ -26,7 +37,7 @@ fn count_neighbors(thread: Thread) {
         let range = candidate_range(home, k);
         for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
-            count += u32(j != i && within(unpack(position[j]) - x, search_radius));
+            count += u32(j != i && within(unpack(position[j]) - x, reach_of(i, j)));
         }
     }
     neighbor_count[i] = count;
@@ -45,7 +56,7 @@ fn list_neighbors(thread: Thread) {
         let range = candidate_range(home, k);
         for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
-            if j != i && within(unpack(position[j]) - x, search_radius) {
+            if j != i && within(unpack(position[j]) - x, reach_of(i, j)) {
                 neighbor_id[next] = id[j];
                 next += 1u;
             }

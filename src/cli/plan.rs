@@ -63,7 +63,7 @@ pub fn main(args: &Args) -> Result<()> {
         };
     }
     let adapter = args.device.adapter();
-    let outputs = args.run.outputs()?;
+    let outputs = args.run.outputs()?.of(&scene);
     let mut report = Report::new(&scene, &outputs, &adapter)?;
     if args.measure {
         report.estimate = Some(Estimate::new(&scene, &outputs, &adapter)?);

@@ -52,7 +52,7 @@ pub fn main(args: &Args) -> Result<()> {
     let scene = args.run.load(args.dry_run.then_some(plan::MEMORY))?;
     let outputs = args.run.outputs()?;
     if args.dry_run {
-        let report = plan::Report::new(&scene, &outputs, &args.sitting.adapter())?;
+        let report = plan::Report::new(&scene, &outputs.of(&scene), &args.sitting.adapter())?;
         return stdout::print(&report.to_string());
     }
     let folder = args

@@ -73,7 +73,7 @@ impl Start {
 pub(super) fn drive(launch: Launch) -> Result<()> {
     let Launch {
         scene,
-        settings,
+        mut settings,
         folder,
         mut progress,
         configuration,
@@ -81,6 +81,7 @@ pub(super) fn drive(launch: Launch) -> Result<()> {
         wall_s,
         retries,
     } = launch;
+    settings.outputs = settings.outputs.of(scene);
     let settings = &settings;
     let halvings = halvings(&retries, start.state().map(|state| state.frame));
     let shorter = (halvings > 0).then(|| halved(scene, halvings));

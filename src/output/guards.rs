@@ -226,7 +226,7 @@ fn scale(scene: &Scene, frame: &Frame, figures: &Statistics) -> f64 {
         return f64::MAX;
     }
     let particles = f64::from(frame.particles);
-    let mass = (model(&scene.matter).particle_mass)(scene) * particles;
+    let mass = (model(&scene.matter).particle_mass)(scene) * scene.mean_mass_share() * particles;
     let extent = (scene.domain.max - scene.domain.min).as_dvec3();
     let upwards = scene
         .gravities()

@@ -165,9 +165,22 @@ impl Snapshot {
                 is_rounded: false,
             })
         };
-        let columns = ["position", "velocity", "acceleration"];
+        let vectors = ["position", "velocity", "acceleration"];
+        let mut columns: Vec<Column> = vectors.into_iter().filter_map(column).collect();
+        if let Some(bytes) = state.buffer("radius") {
+            let radii: Vec<f32> = bytemuck::pod_collect_to_vec(bytes);
+            if radii.len() != count {
+                return Err(failed("it has not all radii".into()));
+            }
+            columns.push(Column {
+                name: "radius".into(),
+                width: 1,
+                values: slot_of.iter().map(|&slot| f64::from(radii[slot])).collect(),
+                is_rounded: false,
+            });
+        }
         Ok(Self {
-            columns: columns.into_iter().filter_map(column).collect(),
+            columns,
             state: Some(state),
         })
     }

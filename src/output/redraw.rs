@@ -72,6 +72,7 @@ pub fn redraw(
             is_given &= given_color::values(&scene, &snapshot).is_some();
             refusal = refusal.and_then(|()| check_color(&scene, &snapshot, frame));
             check_passes(&scene, &snapshot, frame)?;
+            check_radii(&scene, &snapshot, frame)?;
             if snapshot.state.is_none() {
                 let free = scene.first_boundary().max(snapshot.particles() as u32);
                 scene.capacity = free + scene.boundary.len() as u32;
@@ -271,7 +272,11 @@ fn state(scene: &Scene, frame: u32, snapshot: Snapshot) -> State {
     velocity.resize(position.len(), Vec3::ZERO);
     match snapshot.state {
         Some(state) => state.with_origin(scene.origin),
-        None => State::of_particles(scene, frame, &position, &velocity),
+        None => {
+            let radius = snapshot.column("radius").filter(|_| scene.has_field("radius"));
+            let radius: Option<Vec<f32>> = radius.map(|c| c.values.iter().map(|&r| r as f32).collect());
+            State::of_particles(scene, frame, &position, &velocity, radius.as_deref())
+        }
     }
 }
 
@@ -309,6 +314,20 @@ fn check_passes(scene: &Scene, snapshot: &Snapshot, frame: u32) -> Result<()> {
             format!("frame {frame} tells no motion: its particle files have no velocity"),
             "leave `velocity` and `motion` out of --passes and set no --shutter, or run again with --columns \
              position,velocity",
+        ));
+    }
+    Ok(())
+}
+
+/// Refuses frames of grains of several sizes whose files do not say how large they are.
+fn check_radii(scene: &Scene, snapshot: &Snapshot, frame: u32) -> Result<()> {
+    let is_missing = snapshot.state.is_none() && snapshot.column("radius").is_none();
+    if scene.has_field("radius") && is_missing {
+        return Err(Error::usage(
+            format!(
+                "frame {frame} does not tell how large its grains are: its particle files have no radius"
+            ),
+            "run it again: files of such grains have a column `radius`",
         ));
     }
     Ok(())

@@ -23,7 +23,7 @@ use crate::error::Result;
 use crate::gpu::AdapterChoice;
 use crate::plan::{Plan, Wanted};
 use crate::render::Overlay;
-use crate::scene::Scene;
+use crate::scene::{Scene, column};
 
 /// Which sinks a run has.
 #[derive(Debug, Clone)]
@@ -38,6 +38,15 @@ pub struct Outputs {
 }
 
 impl Outputs {
+    /// The same with radii in particle files, where the scene's grains are of several sizes: positions alone do not say where
+    /// they touch.
+    pub fn of(mut self, scene: &Scene) -> Self {
+        if let Some(particles) = self.particles.as_mut().filter(|_| scene.has_field("radius")) {
+            particles.add(*column::RADIUS);
+        }
+        self
+    }
+
     /// What these sinks need from the device.
     pub fn wanted(&self, scene: &Scene) -> Wanted {
         let mut wanted = Wanted {

@@ -1,4 +1,5 @@
-//! Grains as springs and dashpots (Harada 2007, Eq. 6 to 10; Green 2012).
+//! Grains as springs and dashpots (Harada 2007, Eq. 6 to 10; Green 2012). Of grains of several sizes, coefficients and measures
+//! are of the largest (`shaders/common/sizes.wgsl`).
 
 use glam::Vec3;
 
@@ -251,9 +252,13 @@ fn set_friction(scene: &Scene, grains: &scene::Grains, friction: &Friction, vari
         .flag("cohesion", friction.cohesion_range > 0.0)
         .flag("materials", friction.materials > 1)
         .flag("mixed_grains", grains.mixed)
+        .flag(
+            "springs_by_mass",
+            grains.sizes.is_some_and(|sizes| sizes.springs_by_mass),
+        )
         .constant("MATERIALS", friction.materials as u32)
         .role("contact_law", contact_law(friction.law))
-        .constant("CONTACT_SLOTS", contact_slots(scene.dimensions))
+        .constant("CONTACT_SLOTS", contact_slots(scene))
         .constant("CONTACT_WORDS", contact_words(scene.dimensions, rolls))
         .constant("GUARD_CROWDED", Guard::CROWDED);
     if let Some(rolling) = friction.rolling {
@@ -414,7 +419,7 @@ pub fn guard_bounds(scene: &Scene) -> ([f32; 4], [f32; 4]) {
         .map_or(f64::INFINITY, |fluid| RUNAWAY * fluid.sound_speed);
     let by_step = match scene.time.adaptive {
         Some(_) => f64::INFINITY,
-        None => scene.search_radius() / scene.time.step,
+        None => scene.search_radius() / scene.size_ratio() / scene.time.step,
     };
     upper[3] = by_sound.min(by_step).powi(2).min(f32::MAX.into()) as f32;
     (lower, upper)

@@ -10,6 +10,7 @@
 //! - `fields/NAME` of a field that is the spare number of a vector has `NAME_of(i)`, and `fields/VECTOR/pack` puts both
 //!   together: `pack_VECTOR(v, NAME)`;
 //! - `fields/measured` declares what a measure writes;
+//! - `host/largest` has the radius of the largest of grains of several sizes;
 //! - `fields/NAME/color` is the role `<column>` of pictures: `column(i)`.
 
 use std::collections::BTreeMap;
@@ -31,10 +32,16 @@ pub fn plan(scene: &Scene, columns: &[Column], variant: &mut Variant) -> Vec<Buf
         }
     }
     variant.modules.extend(modules(&fields));
+    let has_sizes = scene.has_field("radius");
+    variant.flag("sizes", has_sizes);
+    if has_sizes {
+        let largest = format!("const LARGEST_RADIUS: f32 = {:?}f;", scene.radius() as f32);
+        variant.modules.insert("host/largest".into(), largest);
+    }
     let each = u64::from(scene.capacity);
     let mut buffers = Vec::new();
     for field in fields.iter().filter(|field| field.beside.is_none()) {
-        let bytes = field.kind.bytes(scene.dimensions);
+        let bytes = field.kind.bytes(scene);
         buffers.push(BufferPlan::storage(field.name, each, bytes, field.about));
         if field.travels != Travels::No {
             let why = format!("`{}` after a step, before the search", field.name);

@@ -299,9 +299,9 @@ impl Collider {
 
 shared_struct! {
     pub struct Measure {
-        /// Of a grain, kg.
+        /// Of a grain, the largest, kg.
         pub mass: f32,
-        /// Of a grain, m².
+        /// Of the same, m².
         pub surface: f32,
         /// Of the voxels that a search visits, m³.
         pub block_volume: f32,

@@ -27,7 +27,7 @@ pub struct Model {
     pub sums: fn(&Scene, particles: u32, &Sums) -> OwnFigures,
     /// Columns that follow from the state which a checkpoint holds.
     pub from_state: &'static [FromState],
-    /// Of a particle at rest, kg.
+    /// Of a particle at rest, kg; of grains of several sizes, the largest.
     pub particle_mass: fn(&Scene) -> f64,
     /// Shader that finds what particles do to walls and obstacles, for sensors; and whether that is known only while a step is
     /// made, where its solver runs the pass itself.

@@ -350,7 +350,7 @@ fn probe(scene: &Scene, sensor: &Sensor, number: u32) -> Probe {
     }
 }
 
-/// Of a particle at rest: m³ (m² in 2D) and kg/m³.
+/// Of a particle at rest, the largest: m³ (m² in 2D) and kg/m³.
 pub fn volume_and_density(scene: &Scene) -> (f64, f64) {
     let density = match scene.fluid() {
         Some(fluid) => fluid.materials[0].density,

@@ -236,6 +236,12 @@ impl Plan {
                     "leave the column `body` out, or make bodies `rigid`",
                 ));
             }
+            Some("radius") => {
+                return Err(Error::usage(
+                    "all particles are of one size",
+                    "leave the column `radius` out, or give grains several sizes: grains.sizes",
+                ));
+            }
             Some(name) => {
                 return Err(Error::usage(
                     format!("particles of this scene have no {}", name.replace('_', " ")),

@@ -65,7 +65,7 @@ pub fn add(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) {
     }
     let pixels = u64::from(size[0]) * u64::from(size[1]);
     let capacity = u64::from(scene.capacity.max(1));
-    let position = Kind::Vector.bytes(scene.dimensions);
+    let position = Kind::Vector.bytes(scene);
     needs.storage("blur_sum", pixels, 16, "the sum of a frame's pictures");
     needs.storage(
         "still_position",

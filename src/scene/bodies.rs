@@ -17,9 +17,13 @@ use super::model::{self, Arrangement, Body, SceneFile, Shape};
 use super::obstacles::{self, FILE_HELP, check_corners, transform};
 use super::rigid::{self, RigidBody};
 use super::shapes::{self, Region};
+use super::sizes::{self, Draw, PACKED};
 use super::text::number;
 use super::{Collider, Dimensions, Particles, particle_file};
 use super::{fluid, fluid_start};
+
+/// Share of a shape that a random arrangement of equal grains fills when the scene does not say.
+const SCATTERED: f64 = 0.25;
 
 /// The particles that are there from the start, in the order of the bodies.
 pub struct Filled {
@@ -44,7 +48,7 @@ pub fn fill(
         file.radius() * filling.map_or(1.0, |filling| filling.stretch.min_element().min(1.0))
     };
     let nearest = fillings.iter().map(reach).fold(file.radius(), f64::min);
-    let mut placed = Placed::new(2.0 * nearest);
+    let mut placed = Placed::new(nearest);
     let mut bodies = Vec::new();
     let mut particles = Particles::default();
     let mut rigid = Vec::new();
@@ -81,7 +85,7 @@ pub fn fill(
                     );
                     break;
                 }
-                placed.add(&grains.position, i);
+                placed.add(&grains, i);
                 rigid.push(one);
                 add_material(&path, body, grains.position.len(), file, &mut particles, report);
                 add(&mut particles, &grains, |_| DVec3::ZERO);
@@ -113,7 +117,7 @@ pub fn fill(
             floating::remove_inside(&path, &mut grains, &rigid, radius, frame.dimensions, report);
         }
         if i + 1 < file.bodies.len() {
-            placed.add(&grains.position, i);
+            placed.add(&grains, i);
         }
         add_material(&path, body, grains.position.len(), file, &mut particles, report);
         if let Some(fluid) = &file.fluid {
@@ -165,6 +169,9 @@ fn add(particles: &mut Particles, grains: &Grains, flow: impl Fn(&DVec3) -> DVec
     let velocity = grains.velocity.iter().zip(&grains.position);
     let velocity = velocity.map(|(v, p)| (*v + flow(p)).as_vec3());
     particles.velocity.extend(velocity);
+    particles
+        .radius
+        .extend(grains.radius.iter().map(|&radius| radius as f32));
 }
 
 /// The grains of a body that find room; `None` where one lies too far away. `reach` is how near they come to others, metres.
@@ -190,7 +197,7 @@ fn fitted(
         );
         return None;
     }
-    fit::check_walls(path, &grains.position, reach, frame, report);
+    fit::check_walls(path, &grains, reach, frame, report);
     fit::remove_inside_colliders(path, &mut grains, colliders, reach, frame.dimensions, report);
     fit::remove_overlaps(path, &mut grains, placed, report);
     Some(grains)
@@ -266,8 +273,12 @@ fn grains(
     );
     let shape = format!("{path}.shape");
     let radius = file.radius();
+    // Each body has its own stream, so that changing one body leaves the others as they were.
+    let mut random = ChaCha8Rng::seed_from_u64(file.seed);
+    random.set_stream(index as u64);
+    let scene = file;
     if let Shape::Particles { file, placement } = &body.shape {
-        if body.spacing.is_some() || body.jitter != 0.0 || body.arrangement != Arrangement::default() {
+        if body.spacing.is_some() || body.jitter != 0.0 || body.arrangement == Some(Arrangement::Random) {
             report.problem(
                 &path,
                 "a particle file already says where particles are",
@@ -275,7 +286,8 @@ fn grains(
             );
         }
         let mut grains = from_file(&shape, file, placement, velocity, frame, folder, report)?;
-        fit::remove_coincident(&path, &mut grains, radius, report);
+        sizes::fit(&shape, &mut grains.radius, scene, placement, report);
+        fit::remove_coincident(&path, &mut grains, scene.smallest_radius(), report);
         return Some(grains);
     }
     if let Shape::Ring { center, inner, outer } = &body.shape {
@@ -300,13 +312,33 @@ fn grains(
         }
         let position = shapes::rings(frame.local(center), inner + 0.5 * width, rings as u32, width);
         let velocity = vec![velocity; position.len()];
-        return Some(Grains { position, velocity });
+        let radius = Vec::new();
+        return Some(Grains {
+            position,
+            velocity,
+            radius,
+        });
     }
     let region = region(&shape, &body.shape, frame, folder, report)?;
     if report.problems.len() > sound {
         // Where its numbers are wrong, so would be what is made of them.
         return None;
     }
+    if let Some(draw) = Draw::new(file, frame.dimensions) {
+        let fraction = body.fraction.unwrap_or(PACKED);
+        let all = fraction * region.content(frame.dimensions);
+        let count = all / (draw.mean_share() * sizes::content(radius, frame.dimensions));
+        if !report.room_for(&path, "would hold about", count, "particles", &smaller(file)) {
+            return None;
+        }
+        let balls = shapes::pack(&region, frame.dimensions, &draw, radius, fraction, &mut random);
+        return Some(Grains {
+            velocity: vec![velocity; balls.len()],
+            radius: balls.iter().map(|ball| ball.1).collect(),
+            position: balls.into_iter().map(|ball| ball.0).collect(),
+        });
+    }
+    let arrangement = body.arrangement.unwrap_or_default();
     let spacing = body.spacing.unwrap_or(2.0 * radius);
     if spacing < 2.0 * radius * (1.0 - 1e-9) {
         report.problem(
@@ -319,7 +351,7 @@ fn grains(
         );
         return None;
     }
-    let between = match body.arrangement {
+    let between = match arrangement {
         Arrangement::Lattice => spacing,
         Arrangement::Random => 2.0 * radius,
     };
@@ -332,10 +364,7 @@ fn grains(
     if !report.room_for(&path, "would hold about", count, "particles", &smaller(file)) {
         return None;
     }
-    // Each body has its own stream, so that changing one body leaves the others as they were.
-    let mut random = ChaCha8Rng::seed_from_u64(file.seed);
-    random.set_stream(index as u64);
-    let position = match body.arrangement {
+    let position = match arrangement {
         Arrangement::Lattice => {
             let mut points = |region| {
                 shapes::lattice(
@@ -359,10 +388,17 @@ fn grains(
                 _ => points(&region),
             }
         }
-        Arrangement::Random => shapes::random(&region, frame.dimensions, radius, body.fraction, &mut random),
+        Arrangement::Random => {
+            let fraction = body.fraction.unwrap_or(SCATTERED);
+            shapes::random(&region, frame.dimensions, radius, fraction, &mut random)
+        }
     };
     let velocity = vec![velocity; position.len()];
-    Some(Grains { position, velocity })
+    Some(Grains {
+        position,
+        velocity,
+        radius: Vec::new(),
+    })
 }
 
 pub(super) fn smaller(file: &SceneFile) -> String {
@@ -487,8 +523,13 @@ pub(super) fn from_file(
     if let Some(ids) = &loaded.id {
         order.sort_by_key(|&i| ids[i]);
     }
+    let radius = loaded.radius.unwrap_or_default();
     Some(Grains {
         position: order.iter().map(|&i| frame.snap(position[i])).collect(),
         velocity: order.iter().map(|&i| own[i] + velocity).collect(),
+        radius: order
+            .iter()
+            .filter_map(|&i| Some(radius.get(i)? * scale.x))
+            .collect(),
     })
 }

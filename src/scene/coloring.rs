@@ -125,6 +125,7 @@ fn default_range(column: &str, known: &Known) -> [f64; 2] {
             let materials = materials(file);
             [0.0, materials.max(2) as f64 - 1.0]
         }
+        "radius" if file.sizes().is_some() => [file.smallest_radius(), file.radius()],
         "body" => {
             let bodies = known.particles.body.iter().max().copied().unwrap_or(0);
             [0.0, f64::from(bodies.max(1))]

@@ -97,6 +97,9 @@ fn columns_of(is_wanted: fn(Kind) -> bool) -> impl Iterator<Item = Column> {
     fields.filter_map(Field::column)
 }
 
+/// Of grains of several sizes: files that say where these are say how large they are too.
+pub static RADIUS: LazyLock<Column> = LazyLock::new(|| find("radius").expect("a field of that name"));
+
 /// The column with this name.
 pub fn find(name: &str) -> Option<Column> {
     COLUMNS.iter().copied().find(|column| column.name == name)

@@ -7,7 +7,7 @@
 use std::f64::consts::PI;
 
 use super::friction;
-use super::model::{Change, Dashpot, Grains};
+use super::model::{Change, Dashpot, Grains, Sizes};
 use super::{Contact, Dimensions, frame::Report};
 
 /// The contact law as the user gives it; events change it.
@@ -21,6 +21,17 @@ pub struct Law {
     global_damping: f64,
     /// Of grains that rotate.
     friction: Option<friction::Given>,
+    smallest: Option<Smallest>,
+}
+
+/// The law of the smallest of grains of several sizes.
+#[derive(Debug, Clone)]
+struct Smallest {
+    law: Box<Law>,
+    /// Kilograms.
+    mass: f64,
+    /// Spring over that of the largest.
+    spring: f64,
 }
 
 /// What contacts lose.
@@ -33,8 +44,39 @@ enum Loss {
 }
 
 impl Law {
-    /// Of grains of so many kilograms that are expected to meet with at most `speed` m/s.
+    /// Of grains of so many kilograms, those of the largest, that are expected to meet with at most `speed` m/s.
     pub fn new(grains: &Grains, dimensions: Dimensions, mass: f64, speed: f64, report: &mut Report) -> Self {
+        let largest = Self::of_one_size(grains, dimensions, mass, speed, report);
+        let Some(radius) = grains.sizes.as_ref().map(Sizes::smallest) else {
+            return largest;
+        };
+        let share = (radius / grains.radius).powi(dimensions.count() as i32);
+        let grains = Grains {
+            radius,
+            // As far as that of all.
+            cohesion_range: Some(friction::cohesion_range(grains)),
+            ..grains.clone()
+        };
+        let mass = share * mass;
+        // What is wrong has been told.
+        let law = Self::of_one_size(&grains, dimensions, mass, speed, &mut Report::default());
+        Self {
+            smallest: Some(Smallest {
+                spring: law.spring / largest.spring,
+                law: Box::new(law),
+                mass,
+            }),
+            ..largest
+        }
+    }
+
+    fn of_one_size(
+        grains: &Grains,
+        dimensions: Dimensions,
+        mass: f64,
+        speed: f64,
+        report: &mut Report,
+    ) -> Self {
         let friction = friction::Given::new(grains, dimensions, mass, speed);
         if let Some(friction) = &friction {
             // What is missing has been told.
@@ -48,6 +90,7 @@ impl Law {
                 attraction: 0.0,
                 global_damping: grains.global_damping,
                 friction: Some(friction.clone()),
+                smallest: None,
             };
         }
         let loss = loss("grains", grains.damping, grains.restitution, report).unwrap_or_else(|| {
@@ -68,6 +111,7 @@ impl Law {
             attraction: grains.attraction,
             global_damping: grains.global_damping,
             friction,
+            smallest: None,
         }
     }
 
@@ -81,11 +125,33 @@ impl Law {
             attraction: change.attraction.unwrap_or(self.attraction),
             global_damping: change.global_damping.unwrap_or(self.global_damping),
             friction: self.friction.clone(),
+            smallest: self.smallest.as_ref().map(|smallest| {
+                let change = Change {
+                    spring: change.spring.map(|spring| smallest.spring * spring),
+                    ..change.clone()
+                };
+                let law = smallest.law.changed(path, &change, &mut Report::default());
+                Smallest {
+                    law: Box::new(law),
+                    ..smallest.clone()
+                }
+            }),
         }
     }
 
-    /// Coefficients for grains of `mass` kilograms.
+    /// Coefficients for grains of `mass` kilograms, those of the largest.
     pub fn contact(&self, mass: f64) -> Contact {
+        let smallest = self
+            .smallest
+            .as_ref()
+            .map(|smallest| (Box::new(smallest.law.contact(smallest.mass)), smallest.mass));
+        Contact {
+            smallest,
+            ..self.of_largest(mass)
+        }
+    }
+
+    fn of_largest(&self, mass: f64) -> Contact {
         if let (Some(friction), Loss::Restitution(restitution)) = (&self.friction, self.loss) {
             return Contact {
                 spring: 0.0,
@@ -96,6 +162,7 @@ impl Law {
                 attraction: 0.0,
                 global_damping: self.global_damping,
                 friction: Some(Box::new(friction.friction(self.spring, restitution))),
+                smallest: None,
             };
         }
         let (damping, wall_damping) = match self.loss {
@@ -115,6 +182,7 @@ impl Law {
             attraction: self.attraction,
             global_damping: self.global_damping,
             friction: None,
+            smallest: None,
         }
     }
 }
@@ -147,6 +215,14 @@ impl Contact {
     /// The attraction, which grows with distance, stiffens a contact and is added to the spring. A contact that is
     /// damped beyond β = 1 never swings back; there it is π m_eff / η, the time in which its speed fades.
     pub fn duration(&self, mass: f64) -> f64 {
+        let all = self
+            .smallest
+            .as_ref()
+            .map_or(f64::INFINITY, |(law, mass)| law.duration(*mass));
+        all.min(self.duration_of_largest(mass))
+    }
+
+    fn duration_of_largest(&self, mass: f64) -> f64 {
         if let Some(friction) = &self.friction {
             return friction.duration;
         }
@@ -164,6 +240,14 @@ impl Contact {
 
     /// Rate at which dashpot, shear and global damping slow a contact of two grains, 1/s; walls slow it less.
     pub fn damping_rate(&self, mass: f64) -> f64 {
+        let all = self
+            .smallest
+            .as_ref()
+            .map_or(0.0, |(law, mass)| law.damping_rate(*mass));
+        all.max(self.damping_rate_of_largest(mass))
+    }
+
+    fn damping_rate_of_largest(&self, mass: f64) -> f64 {
         if let Some(friction) = &self.friction {
             return friction.damping_rate + self.global_damping;
         }

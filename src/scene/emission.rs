@@ -4,8 +4,11 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 use rand::Rng;
+use rand_chacha::ChaCha8Rng;
 
 use super::Dimensions;
+use super::shapes::{self, Ball, Region};
+use super::sizes::Draw;
 
 /// When an emitter flows: from and until, seconds.
 pub fn flows(on_at_start: bool, switches: &[(f64, bool)], end: f64) -> Vec<(f64, f64)> {
@@ -58,6 +61,42 @@ pub fn loose_layer(
         on_plane(center, axis, dimensions, moved) + axis * within(half)
     };
     points.into_iter().map(&mut loosen).collect()
+}
+
+/// Share of its volume that a layer of grains of several sizes fills, where it is as thick as it usually is.
+const FILLED: f64 = 0.4;
+
+/// Share of a layer of this thickness that is filled, where `usual` is what it usually has, metres: fewer grains come where they are
+/// to be farther apart.
+pub fn filled(spacing: f64, usual: f64, dimensions: Dimensions) -> f64 {
+    FILLED * (usual / spacing).powi(dimensions.count() as i32).min(1.0)
+}
+
+/// Grains of several sizes in a disc (a strip in 2D) of this radius and thickness across `axis`, without order or overlap. They
+/// lie wholly inside, so that layers follow each other without overlaps too.
+pub fn packed_layer(
+    [center, axis]: [DVec3; 2],
+    [radius, thickness, largest]: [f64; 3],
+    fraction: f64,
+    draw: &Draw,
+    dimensions: Dimensions,
+    rng: &mut ChaCha8Rng,
+) -> Vec<Ball> {
+    let half = 0.5 * thickness;
+    if dimensions == Dimensions::Three {
+        let (from, to) = (center - half * axis, center + half * axis);
+        let disc = Region::Cylinder { from, to, radius };
+        return shapes::pack(&disc, dimensions, draw, largest, fraction, rng);
+    }
+    let corner = DVec3::new(half, radius, 0.0);
+    let strip = Region::Box {
+        min: -corner,
+        max: corner,
+    };
+    let across = DVec3::new(-axis.y, axis.x, 0.0);
+    let balls = shapes::pack(&strip, dimensions, draw, largest, fraction, rng);
+    let place = |(at, radius): Ball| (center + at.x * axis + at.y * across, radius);
+    balls.into_iter().map(place).collect()
 }
 
 /// How a lattice lies in its plane.

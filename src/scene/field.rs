@@ -73,27 +73,30 @@ pub struct Newcomers<'a> {
 
 impl Kind {
     /// Of one value on the device.
-    pub fn bytes(self, dimensions: Dimensions) -> u64 {
-        match (self, dimensions) {
+    pub fn bytes(self, scene: &Scene) -> u64 {
+        match (self, scene.dimensions) {
             (Self::Float | Self::Unsigned, _) => 4,
             (Self::Pair, _) => 8,
             (Self::Vector, _) | (Self::Matrix, Dimensions::Two) => 16,
             (Self::Matrix, Dimensions::Three) => 48,
             (Self::HalfStep, _) => 48,
-            (Self::Contacts { rolls }, _) => {
-                16 * u64::from(contact_slots(dimensions) * contact_words(dimensions, rolls))
+            (Self::Contacts { rolls }, dimensions) => {
+                16 * u64::from(contact_slots(scene) * contact_words(dimensions, rolls))
             }
         }
     }
 }
 
 /// Contacts that a grain has room to remember. Equal spheres touch at most twelve others, equal discs six; the rest is for
-/// walls and obstacles, and for overlaps.
-pub fn contact_slots(dimensions: Dimensions) -> u32 {
-    match dimensions {
-        Dimensions::Two => 8,
-        Dimensions::Three => 16,
-    }
+/// walls and obstacles, and for overlaps. As many of the smallest fit around the largest as around a ball whose surface three
+/// quarters of them cover.
+pub fn contact_slots(scene: &Scene) -> u32 {
+    let ratio = 1.0 + scene.size_ratio();
+    let (around, more) = match scene.dimensions {
+        Dimensions::Two => (std::f64::consts::PI / (1.0 / ratio).asin(), 2),
+        Dimensions::Three => (0.75 * 4.0 * ratio * ratio, 4),
+    };
+    2 * (around / 2.0).round() as u32 + more
 }
 
 /// Vectors of four numbers that a contact is remembered by.
@@ -211,6 +214,17 @@ pub const FIELDS: &[Field] = &[
                 || scene.grains().is_some_and(|grains| grains.mixed)
         },
         start: Some(|new| bytemuck::cast_slice(&new.free.material).to_vec()),
+        ..ROW
+    },
+    Field {
+        name: "radius",
+        unit: "m",
+        about: "radius of the grain, where grains are of several sizes",
+        column: Some(Source::Field),
+        travels: Travels::Kept,
+        saved: true,
+        has: |scene| scene.grains().is_some_and(|grains| grains.sizes.is_some()),
+        start: Some(|new| bytemuck::cast_slice(&new.free.radius).to_vec()),
         ..ROW
     },
     Field {

@@ -119,7 +119,7 @@ fn size(body: &Body, dimensions: u32) -> Option<Vec<f64>> {
     let Shape::Box { min, max } = &body.shape else {
         return None;
     };
-    if body.spacing.is_some() || body.arrangement != Arrangement::Lattice || body.rigid.is_some() {
+    if body.spacing.is_some() || body.arrangement == Some(Arrangement::Random) || body.rigid.is_some() {
         return None;
     }
     let at = |point: &Coordinates, axis: u32| point.0.get(axis as usize).copied();

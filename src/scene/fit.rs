@@ -21,14 +21,27 @@ pub struct Grains {
     pub position: Vec<DVec3>,
     /// m/s.
     pub velocity: Vec<DVec3>,
+    /// Where they are of several sizes, metres; otherwise empty.
+    pub radius: Vec<f64>,
 }
 
 impl Grains {
+    /// Each center with its radius, which is `usual` where all have one.
+    fn balls(&self, usual: f64) -> impl Iterator<Item = (DVec3, f64)> {
+        let radius = move |i: usize| self.radius.get(i).copied().unwrap_or(usual);
+        self.position
+            .iter()
+            .enumerate()
+            .map(move |(i, &center)| (center, radius(i)))
+    }
+
     pub fn keep(&mut self, kept: &[bool]) {
         let mut marks = kept.iter();
         self.position.retain(|_| *marks.next().unwrap_or(&true));
         let mut marks = kept.iter();
         self.velocity.retain(|_| *marks.next().unwrap_or(&true));
+        let mut marks = kept.iter();
+        self.radius.retain(|_| *marks.next().unwrap_or(&true));
     }
 }
 
@@ -50,22 +63,27 @@ pub fn remove_coincident(path: &str, grains: &mut Grains, radius: f64, report: &
 }
 
 /// Grains that reach out of the domain: through a closed side at all, through an open one with their centers.
-pub fn check_walls(path: &str, grains: &[DVec3], radius: f64, frame: &Frame, report: &mut Report) {
+pub fn check_walls(path: &str, grains: &Grains, radius: f64, frame: &Frame, report: &mut Report) {
     for (axis, name) in frame.axes() {
-        let lowest = grains.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
-        let highest = grains.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
         let [low, high] = frame.sides[axis];
-        let sides = [
-            ("min", low, frame.min[axis] - lowest),
-            ("max", high, highest - frame.max[axis]),
-        ];
-        for (end, wall, center_beyond) in sides {
-            let (beyond, says) = match wall {
-                Wall::Open => (center_beyond, "particles lie outside the domain's open side"),
-                Wall::Contact | Wall::Clamp | Wall::Particles | Wall::Planes => {
-                    (center_beyond + radius, "reaches through the domain's side")
+        for (end, wall) in [("min", low), ("max", high)] {
+            let closed = matches!(wall, Wall::Contact | Wall::Clamp | Wall::Particles | Wall::Planes);
+            let beyond = grains.balls(radius).map(|(center, radius)| {
+                let center_beyond = match end {
+                    "min" => frame.min[axis] - center[axis],
+                    _ => center[axis] - frame.max[axis],
+                };
+                if closed {
+                    center_beyond + radius
+                } else {
+                    center_beyond
                 }
-                Wall::Periodic => (center_beyond, "particles lie outside the domain's periodic side"),
+            });
+            let beyond = beyond.fold(f64::NEG_INFINITY, f64::max);
+            let says = match wall {
+                Wall::Open => "particles lie outside the domain's open side",
+                Wall::Periodic => "particles lie outside the domain's periodic side",
+                _ => "reaches through the domain's side",
             };
             if beyond > radius * TOLERANCE {
                 report.problem(
@@ -93,9 +111,8 @@ pub fn remove_inside_colliders(
             .first()
             .map_or(DVec3::ZERO, |(_, offset)| offset.as_dvec3());
         let obstacle = Obstacle::new(&collider.shape, dimensions);
-        let reach = reach(radius);
-        let is_free = |center: &DVec3| !obstacle.touches(*center - offset, reach);
-        let kept: Vec<bool> = grains.position.iter().map(is_free).collect();
+        let is_free = |(center, radius)| !obstacle.touches(center - offset, reach(radius));
+        let kept: Vec<bool> = grains.balls(radius).map(is_free).collect();
         keep_free(path, grains, &kept, &format!("colliders[{i}]"), report);
     }
 }
@@ -114,7 +131,10 @@ fn keep_free(path: &str, grains: &mut Grains, kept: &[bool], other: &str, report
 
 /// Removes grains that overlap a grain of an earlier body.
 pub fn remove_overlaps(path: &str, grains: &mut Grains, placed: &Placed, report: &mut Report) {
-    let hits: Vec<Option<usize>> = grains.position.iter().map(|p| placed.body_at(*p)).collect();
+    let hits = grains
+        .balls(placed.largest)
+        .map(|(center, radius)| placed.body_at(center, radius));
+    let hits: Vec<Option<usize>> = hits.collect();
     let mut bodies: Vec<usize> = hits.iter().flatten().copied().collect();
     bodies.sort_unstable();
     let all = grains.position.len();
@@ -140,42 +160,50 @@ fn lost(path: &str, removed: usize, all: usize, other: &str, report: &mut Report
     }
 }
 
-/// Grains placed so far, by cells as wide as the least distance.
+/// Grains placed so far, by cells as wide as the largest of them.
 pub struct Placed {
-    least_distance: f64,
-    cells: HashMap<[i64; 3], Vec<(DVec3, usize)>>,
+    /// Radius of the largest, metres.
+    largest: f64,
+    /// Center, radius and body.
+    cells: HashMap<[i64; 3], Vec<(DVec3, f64, usize)>>,
 }
 
 impl Placed {
-    pub fn new(diameter: f64) -> Self {
+    /// For grains of at most this radius, metres.
+    pub fn new(largest: f64) -> Self {
         Self {
-            least_distance: diameter * (1.0 - TOLERANCE),
+            largest,
             cells: HashMap::new(),
         }
     }
 
     fn cell(&self, point: DVec3) -> [i64; 3] {
-        (point / self.least_distance)
+        (point / least_distance(self.largest, self.largest))
             .floor()
             .to_array()
             .map(|cell| cell as i64)
     }
 
-    pub fn add(&mut self, points: &[DVec3], body: usize) {
-        for point in points {
-            let cell = self.cell(*point);
-            self.cells.entry(cell).or_default().push((*point, body));
+    pub fn add(&mut self, grains: &Grains, body: usize) {
+        for (center, radius) in grains.balls(self.largest) {
+            let cell = self.cell(center);
+            self.cells.entry(cell).or_default().push((center, radius, body));
         }
     }
 
     /// The body whose grain is too near.
-    fn body_at(&self, point: DVec3) -> Option<usize> {
-        let [x, y, z] = self.cell(point);
+    fn body_at(&self, center: DVec3, radius: f64) -> Option<usize> {
+        let [x, y, z] = self.cell(center);
         let neighbors = (0..27).map(|i| [x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1]);
         neighbors
             .filter_map(|cell| self.cells.get(&cell))
             .flatten()
-            .find(|(other, _)| other.distance(point) < self.least_distance)
-            .map(|(_, body)| *body)
+            .find(|(other, own, _)| other.distance(center) < least_distance(radius, *own))
+            .map(|(_, _, body)| *body)
     }
+}
+
+/// How near two grains of these radii may come, metres.
+fn least_distance(one: f64, other: f64) -> f64 {
+    (one + other) * (1.0 - TOLERANCE)
 }

@@ -196,7 +196,7 @@ pub fn cover(
     report: &mut Report,
 ) {
     let spacing = 2.0 * file.radius();
-    let mut placed = Placed::new(NEAREST * spacing);
+    let mut placed = Placed::new(NEAREST * spacing / 2.0);
     let mut first = 0;
     for same in rigid.chunk_by_mut(|a, b| a.index == b.index) {
         let index = same[0].index;
@@ -241,7 +241,7 @@ fn fits(
     let sound = report.problems.len();
     let mut particles = body.particles();
     let all = particles.position.len();
-    fit::check_walls(path, &particles.position, radius, frame, report);
+    fit::check_walls(path, &particles, radius, frame, report);
     fit::remove_inside_colliders(path, &mut particles, colliders, radius, frame.dimensions, report);
     fit::remove_overlaps(path, &mut particles, placed, report);
     let lost = all - particles.position.len();
@@ -252,7 +252,7 @@ fn fits(
             "move it, or make it smaller",
         );
     }
-    placed.add(&particles.position, body.index);
+    placed.add(&particles, body.index);
     report.problems.len() == sound
 }
 

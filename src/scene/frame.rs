@@ -206,7 +206,7 @@ impl Frame {
         };
         frame.min = frame.local(low);
         frame.max = frame.local(high);
-        frame.check_precision(file.radius(), report);
+        frame.check_precision(file.smallest_radius(), report);
         frame
     }
 

@@ -4,6 +4,9 @@
 //! along. Along it, what moves is the surface: its effective mass is m* / (1 + m R² / I), for turning is easier than moving.
 //! Walls are rigid unless their material says otherwise, so that Hertz's R*, E* and G* are there R, E/(1 − ν²) and G/(2 − ν);
 //! for two grains, half of each.
+//!
+//! Of grains of several sizes these are the coefficients of the largest; shaders make those of each pair of them
+//! (`shaders/physics/dem/friction.wgsl`).
 
 use std::f64::consts::PI;
 
@@ -122,7 +125,6 @@ impl Given {
             restitution: grains.restitution.unwrap_or(1.0),
             cohesion: grains.cohesion.unwrap_or(0.0),
         };
-        let range = grains.cohesion_range.unwrap_or(USUAL_RANGE * grains.radius);
         let young_modulus = grains.young_modulus.unwrap_or(1.0);
         let sound = (young_modulus / grains.density).sqrt();
         Some(Self {
@@ -132,7 +134,7 @@ impl Given {
             rub,
             wall_friction: grains.wall_friction.unwrap_or(friction),
             materials: Materials::new(grains),
-            cohesion_range: if sticks { range } else { 0.0 },
+            cohesion_range: if sticks { cohesion_range(grains) } else { 0.0 },
             tangential_stiffness: grains.tangential_stiffness,
             rolling: rolls.then(|| grains.rolling_resistance.unwrap_or_default()),
             radius: grains.radius,
@@ -288,6 +290,11 @@ impl Given {
             damping_rate: pairing.damping * deepest.powf(0.25) / mass * faster,
         }
     }
+}
+
+/// Distance of surfaces at which cohesion ends, where grains stick, metres.
+pub fn cohesion_range(grains: &Grains) -> f64 {
+    grains.cohesion_range.unwrap_or(USUAL_RANGE * grains.radius)
 }
 
 /// Whether anything of a scene resists rolling.

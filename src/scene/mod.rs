@@ -44,6 +44,7 @@ pub mod sensors;
 pub mod set;
 pub mod shapes;
 pub mod signed_distance;
+pub mod sizes;
 pub mod start;
 pub mod synonyms;
 pub(crate) mod text;
@@ -101,7 +102,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Of a particle, metres: a grain's, or half the distance of a fluid's particles.
+    /// Of a particle, metres: a grain's, that of the largest, or half the distance of a fluid's particles.
     pub fn radius(&self) -> f64 {
         match &self.matter {
             Matter::Grains(grains) => grains.radius,
@@ -109,7 +110,31 @@ impl Scene {
         }
     }
 
-    /// How far neighbors are searched, metres.
+    /// Radius of the largest particle over that of the smallest.
+    pub fn size_ratio(&self) -> f64 {
+        self.grains()
+            .map_or(1.0, |grains| grains.radius / grains.smallest())
+    }
+
+    /// Of a particle at rest over that of the largest, in the mean over all that there will be.
+    pub fn mean_mass_share(&self) -> f64 {
+        let later = self
+            .schedule
+            .iter()
+            .filter_map(|scheduled| match &scheduled.action {
+                Action::Add(particles) => Some(particles),
+                Action::SetParameters { .. } => None,
+            });
+        let all = std::iter::once(&self.particles).chain(later);
+        let (mut sum, mut count) = (0.0, 0.0);
+        for radius in all.flat_map(|particles| &particles.radius) {
+            sum += (f64::from(*radius) / self.radius()).powi(self.dimensions.count() as i32);
+            count += 1.0;
+        }
+        if count > 0.0 { sum / count } else { 1.0 }
+    }
+
+    /// How far neighbors are searched, metres; of grains of several sizes, those of the two largest.
     pub fn search_radius(&self) -> f64 {
         match &self.matter {
             Matter::Grains(grains) => match &grains.contact.friction {
@@ -165,7 +190,7 @@ impl Scene {
     }
 
     /// Neighbors of a particle within `reach` times the search radius: in a dense packing of equal spheres, or on a
-    /// lattice as wide as a fluid's spacing.
+    /// lattice as wide as a fluid's spacing. A large grain among small ones has more.
     pub fn usual_neighbors(&self, reach: f64) -> f64 {
         let (touching, ball, dimensions) = match self.dimensions {
             Dimensions::Two => (6.0, std::f64::consts::PI, 2),
@@ -288,19 +313,29 @@ impl Domain {
     }
 }
 
-/// Equal grains.
+/// Grains.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grains {
-    /// Metres.
+    /// Of each, or of the largest, metres.
     pub radius: f64,
-    /// Kilograms.
+    /// The same one's, kilograms.
     pub mass: f64,
+    /// Where they are not all of one size.
+    pub sizes: Option<sizes::Span>,
     pub contact: Contact,
     /// Whether they are of several materials.
     pub mixed: bool,
 }
 
-/// The contact law with its coefficients (Harada 2007, Eq. 9 and 10; Green 2012).
+impl Grains {
+    /// Radius of the smallest, metres.
+    pub fn smallest(&self) -> f64 {
+        self.sizes.map_or(self.radius, |sizes| sizes.smallest)
+    }
+}
+
+/// The contact law with its coefficients (Harada 2007, Eq. 9 and 10; Green 2012); of two of the largest grains, where they are
+/// of several sizes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contact {
     /// N/m.
@@ -318,6 +353,9 @@ pub struct Contact {
     pub global_damping: f64,
     /// Of grains that rotate; then all but `global_damping` of the above is zero.
     pub friction: Option<Box<Friction>>,
+    /// The law of two of the smallest, and the mass of one in kilograms, where grains are of several sizes. Steps follow from
+    /// it.
+    pub smallest: Option<(Box<Contact>, f64)>,
 }
 
 /// Positions (local, metres) and velocities (m/s) of particles, one entry per particle.
@@ -329,6 +367,8 @@ pub struct Particles {
     pub density_deviation: Vec<f32>,
     /// Of a fluid: pressure at the start, Pa. Empty for grains.
     pub start_pressure: Vec<f32>,
+    /// Of grains of several sizes, metres. Empty where there is one.
+    pub radius: Vec<f32>,
     /// Of several fluids, or of grains of several materials: number of their material. Empty for one.
     pub material: Vec<u32>,
     /// Numbers of the rigid bodies that they are parts of, from 1 on; 0 for loose grains. Empty where all are loose.
@@ -351,6 +391,7 @@ impl Particles {
         self.velocity.append(&mut other.velocity);
         self.density_deviation.append(&mut other.density_deviation);
         self.start_pressure.append(&mut other.start_pressure);
+        self.radius.append(&mut other.radius);
         self.material.append(&mut other.material);
         self.body.append(&mut other.body);
         self.body_mass.append(&mut other.body_mass);

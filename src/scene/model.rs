@@ -11,6 +11,7 @@ mod neighbors;
 mod render;
 mod rigid;
 mod sensors;
+mod sizes;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -30,6 +31,7 @@ pub use render::{
 };
 pub use rigid::{Copies, Rigid};
 pub use sensors::{Sensor, SensorField, Side};
+pub use sizes::{Sieve, Sizes};
 
 /// A point, direction or velocity: two numbers in a 2D scene, three in a 3D scene. SI units, y up, right-handed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -64,7 +66,7 @@ pub struct SceneFile {
     /// Acceleration that acts on every particle, m/s²; 9.81 downwards when left out.
     #[serde(default = "earth")]
     pub gravity: Coordinates,
-    /// Equal grains: particles that touch. A scene has grains or a fluid.
+    /// Grains: particles that touch. A scene has grains or a fluid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub grains: Option<Grains>,
     /// A fluid, or several of different density. A scene has grains or a fluid.
@@ -97,13 +99,23 @@ pub struct SceneFile {
 }
 
 impl SceneFile {
-    /// Of a particle, metres: a grain's radius, or half the distance of a fluid's particles.
+    /// Of a particle, metres: a grain's radius, that of the largest, or half the distance of a fluid's particles.
     pub fn radius(&self) -> f64 {
         match (&self.grains, &self.fluid) {
             (Some(grains), _) => grains.radius,
             (None, Some(fluid)) => fluid.spacing / 2.0,
             (None, None) => 0.0,
         }
+    }
+
+    /// Of the smallest particle, metres.
+    pub fn smallest_radius(&self) -> f64 {
+        self.sizes().map_or(self.radius(), Sizes::smallest)
+    }
+
+    /// Of grains that are not all of one size.
+    pub fn sizes(&self) -> Option<&Sizes> {
+        self.grains.as_ref()?.sizes.as_ref()
     }
 
     /// The key that says how large particles are, and its value, for messages.
@@ -320,7 +332,7 @@ pub struct Emitter {
     pub spacing: Option<f64>,
     /// How the particles of a layer stand: on a lattice, which is the same in each layer, or in `random` disorder, each layer
     /// turned, shifted and loosened as far as particles do not overlap. When left out `lattice`, and `random` for grains that
-    /// rotate.
+    /// rotate or are of several sizes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arrangement: Option<Arrangement>,
     /// Name of one of `fluid.materials`, the first when left out; or of `grains.materials`.

@@ -20,6 +20,8 @@ pub struct Loaded {
     pub velocity: Option<Vec<DVec3>>,
     /// Each one once.
     pub id: Option<Vec<u32>>,
+    /// Metres.
+    pub radius: Option<Vec<f64>>,
 }
 
 /// What a file says of its particles under one name.
@@ -103,7 +105,7 @@ fn read(path: &Path) -> Result<Table, String> {
 }
 
 /// What a particle is known to have: name and alias.
-const COLUMNS: [[&str; 2]; 7] = [
+const COLUMNS: [[&str; 2]; 8] = [
     ["x", "position_x"],
     ["y", "position_y"],
     ["z", "position_z"],
@@ -111,11 +113,13 @@ const COLUMNS: [[&str; 2]; 7] = [
     ["vy", "velocity_y"],
     ["vz", "velocity_z"],
     ["id", "particle_id"],
+    ["radius", "pscale"],
 ];
 const Z: usize = 2;
 const VELOCITY: usize = 3;
 const VZ: usize = 5;
 const ID: usize = 6;
+const RADIUS: usize = 7;
 
 /// The place of a column in [`COLUMNS`], whatever the case of its name.
 fn place(name: &str) -> Option<usize> {
@@ -187,7 +191,7 @@ impl Table {
 
     fn check(self, dimensions: Dimensions) -> Result<Loaded, String> {
         let axes = dimensions.count();
-        let known: [Option<&[f64]>; 7] = std::array::from_fn(|place| self.find(place));
+        let known: [Option<&[f64]>; 8] = std::array::from_fn(|place| self.find(place));
         let missing: Vec<_> = (0..axes)
             .filter(|&axis| known[axis].is_none())
             .map(|axis| COLUMNS[axis][0])
@@ -257,6 +261,7 @@ impl Table {
             position: vectors(0),
             velocity: known[VELOCITY].map(|_| vectors(VELOCITY)),
             id: known[ID].map(|ids| ids.iter().map(|&id| id as u32).collect()),
+            radius: known[RADIUS].map(<[f64]>::to_vec),
         })
     }
 }

@@ -107,6 +107,7 @@ impl Scene {
             matter: Matter::Grains(Grains {
                 radius,
                 mass: 1.0,
+                sizes: None,
                 contact: NO_CONTACT,
                 mixed: false,
             }),
@@ -160,6 +161,7 @@ const NO_CONTACT: Contact = Contact {
     attraction: 0.0,
     global_damping: 0.0,
     friction: None,
+    smallest: None,
 };
 
 fn check(points: &[DVec3], dimensions: Dimensions, search_radius: f64) -> Result<()> {

@@ -56,6 +56,7 @@ impl RigidBody {
     pub fn particles(&self) -> Grains {
         let arms = self.places.iter().map(|place| self.orientation * *place);
         Grains {
+            radius: Vec::new(),
             position: arms.clone().map(|arm| self.center + arm).collect(),
             velocity: arms
                 .map(|arm| self.velocity + self.angular_velocity.cross(arm))
@@ -195,7 +196,7 @@ pub fn check(file: &SceneFile, frame: &Frame, report: &mut Report) {
         .enumerate()
         .filter(|(_, body)| body.rigid.is_some())
     {
-        if body.arrangement != Arrangement::default() || body.jitter != 0.0 {
+        if body.arrangement == Some(Arrangement::Random) || body.jitter != 0.0 {
             report.problem(
                 format!("bodies[{i}]"),
                 "the particles of a rigid body stand in order",

@@ -1,5 +1,7 @@
 //! Events and emitters, unrolled into what happens at which time.
 
+use std::f64::consts::PI;
+
 use glam::{DVec3, Vec3};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -13,12 +15,16 @@ use super::grain_materials;
 use super::model::{Arrangement, Change, ContactLaw, Emitter, Event, SceneFile};
 use super::motion::{self, Shift};
 use super::shapes::{self, Region};
+use super::sizes::{self, Draw, PACKED};
 use super::text::{number, suggest};
-use super::{Action, Collider, Contact, Matter, Particles, Scheduled};
+use super::{Action, Collider, Contact, Dimensions, Matter, Particles, Scheduled};
 
 /// An emitter's layers of grains stand this many radii apart when the scene does not say: a tenth more than touching. A
 /// fluid's stand one spacing apart.
 const DEFAULT_SPACING_RADII: f64 = 2.2;
+
+/// Streams of random numbers of balls that drop; bodies and emitters have those below.
+const OF_DROPS: u64 = 1 << 32;
 
 /// What happens, before it is known what particles are at the start.
 pub struct Schedule<'a> {
@@ -214,7 +220,7 @@ impl<'a> Unroll<'a> {
         }
     }
 
-    /// A ball of grains on a lattice.
+    /// A ball of grains on a lattice, or without order where they are of several sizes.
     fn drop(&self, path: &str, event: &Event, report: &mut Report) -> Option<Particles> {
         let drop = event.drop.as_ref()?;
         let center = report.vector(&format!("{path}.center"), &drop.center, self.frame.dimensions);
@@ -228,7 +234,9 @@ impl<'a> Unroll<'a> {
             return None;
         }
         let grain = self.file.radius();
-        let count = (drop.radius / grain).powi(self.frame.dimensions.count() as i32);
+        let largest = (drop.radius / grain).powi(self.frame.dimensions.count() as i32);
+        let count =
+            largest / Draw::new(self.file, self.frame.dimensions).map_or(1.0, |draw| draw.mean_share());
         let place = format!("{path}.radius");
         if !report.room_for(&place, "a ball of about", count, "particles", "make it smaller") {
             return None;
@@ -237,21 +245,30 @@ impl<'a> Unroll<'a> {
             center,
             radius: drop.radius,
         };
-        let mut unused = ChaCha8Rng::seed_from_u64(self.file.seed);
-        let points = shapes::lattice(
-            &region,
-            self.frame.dimensions,
-            grain,
-            2.0 * grain,
-            0.0,
-            &mut unused,
-        );
+        let dimensions = self.frame.dimensions;
+        let mut rng = ChaCha8Rng::seed_from_u64(self.file.seed);
+        let (points, radii): (Vec<_>, Vec<_>) = match Draw::new(self.file, dimensions) {
+            Some(draw) => {
+                let own = self
+                    .file
+                    .events
+                    .iter()
+                    .position(|other| std::ptr::eq(other, event));
+                rng.set_stream(OF_DROPS + own.unwrap_or_default() as u64);
+                let balls = shapes::pack(&region, dimensions, &draw, grain, PACKED, &mut rng);
+                balls.into_iter().unzip()
+            }
+            None => {
+                let points = shapes::lattice(&region, dimensions, grain, 2.0 * grain, 0.0, &mut rng);
+                (points, Vec::new())
+            }
+        };
         if points.is_empty() {
             let least = format!("give at least a particle's radius, {} m", number(grain));
             report.problem(format!("{path}.radius"), "not one particle fits", least);
             return None;
         }
-        Some(self.batch(&points, velocity, 0))
+        Some(self.batch(&points, &radii, velocity, 0))
     }
 
     fn emitter(&mut self, index: usize, emitter: &Emitter, end: f64, report: &mut Report) {
@@ -334,8 +351,20 @@ impl<'a> Unroll<'a> {
         let every = spacing / velocity.length();
         let flows = emission::flows(emitter.on, &self.switches[index], end);
         let layers = |(from, to): &(f64, f64)| ((to - from) / every - 1e-9).ceil();
+        let draw = Draw::new(self.file, self.frame.dimensions);
+        let filled = emission::filled(spacing, usual * grain, self.frame.dimensions);
         // A layer takes room besides its particles.
-        let each = points.len() as f64;
+        let each = match &draw {
+            None => points.len() as f64,
+            Some(draw) => {
+                let disc = match self.frame.dimensions {
+                    Dimensions::Two => 2.0 * emitter.radius * spacing,
+                    Dimensions::Three => PI * emitter.radius.powi(2) * spacing,
+                };
+                let mean = draw.mean_share() * sizes::content(grain, self.frame.dimensions);
+                (filled * disc / mean).ceil()
+            }
+        };
         let grains = flows.iter().map(layers).sum::<f64>() * each;
         let help = "make it slower or narrower, or the run shorter";
         let in_all = "particles until the run ends";
@@ -349,7 +378,7 @@ impl<'a> Unroll<'a> {
             .grains
             .as_ref()
             .is_some_and(|grains| grains.law != ContactLaw::SpringDashpot);
-        let usual = if rotate {
+        let usual = if rotate || draw.is_some() {
             Arrangement::Random
         } else {
             Arrangement::Lattice
@@ -359,11 +388,11 @@ impl<'a> Unroll<'a> {
         for flow in &flows {
             for n in 0..layers(flow) as u32 {
                 let time = flow.0 + f64::from(n) * every;
-                let batch = match emitter.arrangement.unwrap_or(usual) {
-                    Arrangement::Lattice => self.batch(&points, velocity, material),
-                    Arrangement::Random => {
+                let dimensions = self.frame.dimensions;
+                let batch = match (emitter.arrangement.unwrap_or(usual), &draw) {
+                    (Arrangement::Lattice, _) => self.batch(&points, &[], velocity, material),
+                    (Arrangement::Random, None) => {
                         let reach = emitter.radius - grain;
-                        let dimensions = self.frame.dimensions;
                         let layer = emission::loose_layer(
                             center,
                             axis,
@@ -373,7 +402,14 @@ impl<'a> Unroll<'a> {
                             dimensions,
                             &mut rng,
                         );
-                        self.batch(&layer, velocity, material)
+                        self.batch(&layer, &[], velocity, material)
+                    }
+                    (Arrangement::Random, Some(draw)) => {
+                        let sizes = [emitter.radius, spacing, grain];
+                        let layer =
+                            emission::packed_layer([center, axis], sizes, filled, draw, dimensions, &mut rng);
+                        let (points, radii): (Vec<_>, Vec<_>) = layer.into_iter().unzip();
+                        self.batch(&points, &radii, velocity, material)
                     }
                 };
                 if !batch.is_empty() {
@@ -383,7 +419,8 @@ impl<'a> Unroll<'a> {
         }
     }
 
-    fn batch(&self, points: &[DVec3], velocity: DVec3, material: u32) -> Particles {
+    /// `radii` are of grains of several sizes, and otherwise empty.
+    fn batch(&self, points: &[DVec3], radii: &[f64], velocity: DVec3, material: u32) -> Particles {
         let (fluid, several) = match &self.file.fluid {
             Some(fluid) => (true, !fluid.materials.is_empty()),
             None => (false, grain_materials::are_mixed(self.file)),
@@ -394,6 +431,7 @@ impl<'a> Unroll<'a> {
             velocity: vec![velocity.as_vec3(); points.len()],
             density_deviation: vec![0.0; of_fluid],
             start_pressure: vec![0.0; of_fluid],
+            radius: radii.iter().map(|&radius| radius as f32).collect(),
             material: if several {
                 vec![material; points.len()]
             } else {

@@ -1,10 +1,12 @@
 //! Shapes filled with grains, on a lattice or at random.
 
+mod packing;
 mod spots;
 #[cfg(test)]
 mod tests;
 
 use std::f64::consts::PI;
+use std::rc::Rc;
 
 use glam::DVec3;
 use rand::Rng;
@@ -14,6 +16,7 @@ use super::Dimensions;
 use super::mesh::{Mesh, surface::Surface};
 use spots::Spots;
 
+pub use packing::{Ball, pack};
 pub use spots::without_overlaps;
 
 /// Metres. In 2D, z is passed over; a cylinder and a mesh are 3D only, and hold nothing in 2D.
@@ -95,7 +98,7 @@ pub fn rings(center: DVec3, first: f64, count: u32, spacing: f64) -> Vec<DVec3> 
 ///
 /// More reach farther and take longer: on 100,000 grains, 1,000 end at 0.27 of the volume (0.6 s), 10,000 at 0.31 (5 s).
 const CROWDED: usize = 10_000;
-/// Draws beside the region in a row after which it counts as too thin for a grain.
+/// Draws beside the region, in a row or while it is packed, after which it counts as too thin for a grain.
 const MISSED: usize = 100_000;
 
 /// Centers of grains of `radius` that lie wholly inside and do not overlap: random sequential addition.
@@ -165,9 +168,12 @@ impl Region {
 }
 
 /// Where the center of a grain of some radius may be.
+#[derive(Clone)]
 struct Interior<'a> {
     region: &'a Region,
-    surface: Option<Surface>,
+    /// Of the region.
+    bounds: (DVec3, DVec3),
+    surface: Option<Rc<Surface>>,
     dimensions: Dimensions,
     radius: f64,
     /// What rounding may add, metres.
@@ -179,11 +185,26 @@ struct Interior<'a> {
 
 impl<'a> Interior<'a> {
     fn new(region: &'a Region, dimensions: Dimensions, radius: f64) -> Self {
-        let (low, high) = region.bounds();
         let surface = match region {
-            Region::Mesh(mesh) => Some(Surface::new(mesh)),
+            Region::Mesh(mesh) => Some(Rc::new(Surface::new(mesh))),
             _ => None,
         };
+        Self::bounded(region, region.bounds(), surface, dimensions, radius)
+    }
+
+    /// For grains of another radius.
+    fn of(&self, radius: f64) -> Self {
+        let surface = self.surface.clone();
+        Self::bounded(self.region, self.bounds, surface, self.dimensions, radius)
+    }
+
+    fn bounded(
+        region: &'a Region,
+        (low, high): (DVec3, DVec3),
+        surface: Option<Rc<Surface>>,
+        dimensions: Dimensions,
+        radius: f64,
+    ) -> Self {
         // 1e-9 of the grain, what a coordinate far from zero can resolve, and for meshes that their files hold f32.
         let far = low.abs().max(high.abs()).max_element();
         let file = match surface {
@@ -196,6 +217,7 @@ impl<'a> Interior<'a> {
         };
         Self {
             region,
+            bounds: (low, high),
             surface,
             dimensions,
             radius,
@@ -229,6 +251,22 @@ impl<'a> Interior<'a> {
                 surface.contains(point) && surface.distance(point, self.radius) >= room
             }),
         }
+    }
+
+    /// Where a grain comes that is to move `by` so far: as far as it stays inside, at least along some axes.
+    fn moved(&self, from: DVec3, by: DVec3) -> DVec3 {
+        if by == DVec3::ZERO || self.holds(from + by) {
+            return from + by;
+        }
+        let mut point = from;
+        for axis in 0..self.dimensions.count() {
+            let mut tried = point;
+            tried[axis] += by[axis];
+            if self.holds(tried) {
+                point = tried;
+            }
+        }
+        point
     }
 
     /// Coordinates of the lattice along an axis; a spacing that fits despite rounding counts.

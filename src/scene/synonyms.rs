@@ -27,6 +27,7 @@ const CENTER: &[&str] = &[
     "colliders.path.offset",
     "render.camera.eye",
 ];
+const SIZES: &[&str] = &["grains.sizes"];
 const MIN: &[&str] = &["domain.min", "bodies.shape.from"];
 const MAX: &[&str] = &["domain.max", "bodies.shape.to"];
 const TIMES_FPS: &str = "It is in seconds: frames over `time.fps`, or use --frames";
@@ -65,6 +66,11 @@ const KEYS: &[Synonym] = &[
         &["bodies.shape.radius", "grains.radius", "fluid.spacing"],
         "A radius is half of it",
     ),
+    key("sizedistribution", SIZES),
+    key("psd", SIZES),
+    key("polydispersity", SIZES),
+    key("gradation", SIZES),
+    key("radii", SIZES),
     key("type", &["bodies.shape.kind"]),
     key("primitive", &["bodies.shape"]),
     key("geometry", &["bodies.shape"]),

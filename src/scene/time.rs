@@ -35,7 +35,8 @@ pub fn end(time: &model::Time) -> f64 {
     f64::from(frames(time, &mut Report::default()) - 1) / time.fps
 }
 
-/// The step that resolves each of `contacts` (those that hold at any time of the run) and fits frames.
+/// The step that resolves each of `contacts` (those that hold at any time of the run) and fits frames. `mass` is that of the
+/// largest grain, kilograms; `radius` that of the smallest, metres.
 pub fn of_grains(
     time: &model::Time,
     frames: u32,

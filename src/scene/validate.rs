@@ -1,6 +1,5 @@
 //! From a scene file that follows the schema to a [`Scene`], or to all that is wrong with it.
 
-use std::f64::consts::PI;
 use std::path::Path;
 
 use glam::DVec3;
@@ -26,6 +25,7 @@ use super::model::{
     Projection, Render, SceneFile, SlicingAxis, StartPressure, Storage, View, Wall,
 };
 use super::rigid;
+use super::sizes::{self, Span};
 use super::text::number;
 use super::{
     Action, Dimensions, Grains, Matter, Neighbors, Particles, Scene, Written, obstacles, schedule, sensors,
@@ -49,6 +49,11 @@ pub(super) fn validate(
     }
     fluid_keys::check(&file, &mut report);
     grain_keys::check(&file, &frame, &mut report);
+    sizes::check(&file, &frame, &mut report);
+    if file.sizes().is_some() && !report.problems.is_empty() {
+        // From sizes that are wrong no radius can be drawn.
+        return Err(report.problems);
+    }
     rigid::check(&file, &frame, &mut report);
     let mass = mass(&file, frame.dimensions);
     let end = time::end(&file.time);
@@ -82,6 +87,7 @@ pub(super) fn validate(
             let matter = Matter::Grains(Grains {
                 radius: given.radius,
                 mass,
+                sizes: Span::of(&file),
                 contact: contacts[0].clone(),
                 mixed: grain_materials::are_mixed(&file),
             });
@@ -96,7 +102,8 @@ pub(super) fn validate(
                     ..contact.clone()
                 })
                 .collect();
-            let time = time::of_grains(&file.time, frames, &hardened, mass, given.radius, &mut report);
+            let smallest = file.smallest_radius();
+            let time = time::of_grains(&file.time, frames, &hardened, mass, smallest, &mut report);
             (matter.clone(), schedule.actions(matter), time)
         }
         (None, given) => {
@@ -309,14 +316,9 @@ fn start(
     }
 }
 
-/// Of one grain, kilograms: a ball, or a disc one metre thick.
+/// Of one grain, that of the largest, kilograms: a ball, or a disc one metre thick.
 fn mass(file: &SceneFile, dimensions: Dimensions) -> f64 {
-    let radius = file.radius();
-    file.density()
-        * match dimensions {
-            Dimensions::Two => PI * radius * radius,
-            Dimensions::Three => 4.0 / 3.0 * PI * radius.powi(3),
-        }
+    file.density() * sizes::content(file.radius(), dimensions)
 }
 
 /// Particles when everything has happened.
@@ -406,10 +408,14 @@ fn neighbors(file: &SceneFile, frame: &Frame, report: &mut Report) -> Neighbors 
             },
         );
     }
-    if file.fluid.is_some() && given.storage == Storage::Pool && given.slots < 8 {
+    let crowded = match (&file.fluid, file.sizes()) {
+        (Some(_), _) => Some("a fluid's kernel"),
+        (None, Some(_)) => Some("two of the largest grains"),
+        (None, None) => None,
+    };
+    if let Some(wide) = crowded.filter(|_| given.storage == Storage::Pool && given.slots < 8) {
         report.notes.push(format!(
-            "neighbors.slots is {}: a voxel as wide as a fluid's kernel holds more particles, and those beyond find no \
-             neighbors",
+            "neighbors.slots is {}: a voxel as wide as {wide} holds more particles, and those beyond find no neighbors",
             given.slots
         ));
     }

@@ -498,7 +498,7 @@ impl Simulation {
         let wanted = &self.plan.wanted;
         if index.is_multiple_of(wanted.columns_every.max(1)) {
             for name in frame::sources(&wanted.columns) {
-                let bytes = self.scene.kind_of(name).bytes(self.scene.dimensions);
+                let bytes = self.scene.kind_of(name).bytes(&self.scene);
                 add(name, bytes * u64::from(self.count));
             }
         }

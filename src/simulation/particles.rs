@@ -50,7 +50,7 @@ impl Simulation {
         let travels = |field: &&Field| field.travels != Travels::No && field.beside.is_none();
         for field in self.scene.fields().filter(travels) {
             let (gpu, next) = (&self.gpu, field.before_search());
-            let each = field.kind.bytes(self.scene.dimensions) as usize;
+            let each = field.kind.bytes(&self.scene) as usize;
             let mut values = field.start.map_or_else(Vec::new, |start| start(&newcomers));
             values.resize(each * all, 0);
             let beside = self.scene.beside(field);
@@ -129,7 +129,7 @@ impl Simulation {
     /// Of the values that all particles have of a field.
     fn bytes_of(&self, field: &str) -> usize {
         let found = self.scene.fields().find(|known| known.name == field);
-        found.map_or(0, |found| found.kind.bytes(self.scene.dimensions) as usize) * self.count as usize
+        found.map_or(0, |found| found.kind.bytes(&self.scene) as usize) * self.count as usize
     }
 
     /// ρ/ρ₀ − 1 and pressure (Pa) of a fluid's particles by slot; empty for grains.

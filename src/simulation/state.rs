@@ -16,6 +16,7 @@ use crate::physics::layout::{BodyState, Clock, Overflow, Packed, StepControl, pa
 use crate::scene::allowance::MOST_PARTICLES;
 use crate::scene::field::{FIELDS, Field, Kind, Newcomers, contact_slots, contact_words};
 use crate::scene::model::Axis;
+use crate::scene::sizes::ROUNDED;
 use crate::scene::{Action, Dimensions, Particles, Scene};
 
 /// Frames and steps of any run; numbers stay far inside 32 bits.
@@ -40,23 +41,31 @@ pub struct State {
 impl State {
     /// The state of particles 0, 1, 2, … at `position` (the scene's coordinates, metres) with `velocity` (m/s), as a
     /// start for pictures and measures.
-    pub fn of_particles(scene: &Scene, frame: u32, position: &[DVec3], velocity: &[Vec3]) -> Self {
+    pub fn of_particles(
+        scene: &Scene,
+        frame: u32,
+        position: &[DVec3],
+        velocity: &[Vec3],
+        radius: Option<&[f32]>,
+    ) -> Self {
         let local = position.iter().map(|&p| (p - scene.origin).as_vec3());
         let local: Vec<Vec3> = local.chain(scene.boundary.position.iter().copied()).collect();
         let velocity = [velocity, &scene.boundary.surface_velocity].concat();
         let walls = scene.first_boundary()..scene.capacity;
         let ids: Vec<u32> = (0..position.len() as u32).chain(walls).collect();
+        let radius = radius.map(|radius| ("radius".to_owned(), bytemuck::cast_slice(radius).to_vec()));
+        let always = [
+            ("position".to_owned(), pack(&local)),
+            ("velocity".to_owned(), pack(&velocity)),
+            ("id".to_owned(), bytemuck::cast_slice(&ids).to_vec()),
+        ];
         Self {
             frame,
             particles: ids.len() as u32,
             dimensions: scene.dimensions,
             origin: scene.origin,
             lists_left_out: None,
-            buffers: vec![
-                ("position".into(), pack(&local)),
-                ("velocity".into(), pack(&velocity)),
-                ("id".into(), bytemuck::cast_slice(&ids).to_vec()),
-            ],
+            buffers: always.into_iter().chain(radius).collect(),
         }
     }
 
@@ -100,12 +109,7 @@ impl State {
                     // The scene's own first: contacts that remember more have a field of the same name.
                     let mut fields = scene.fields().chain(FIELDS);
                     let field = fields.find(|field| field.name == name);
-                    field.map(|field| {
-                        (
-                            field.kind.bytes(self.dimensions) as usize,
-                            self.particles as usize,
-                        )
-                    })
+                    field.map(|field| (field.kind.bytes(scene) as usize, self.particles as usize))
                 }
             };
             match each {
@@ -127,6 +131,7 @@ impl State {
         if scene.has_field("material") && of.iter().any(|&material| material as usize >= materials) {
             return wrong("a particle is of no material");
         }
+        self.check_radii(scene)?;
         self.check_bodies(scene)?;
         let clock: Clock = self
             .buffer("clock")
@@ -266,9 +271,33 @@ impl State {
     }
 }
 
+impl State {
+    /// Radii are there where the scene's grains have some, and lie between the smallest and the largest.
+    fn check_radii(&self, scene: &Scene) -> std::result::Result<(), String> {
+        let wrong = |what: &str| Err(format!("does not fit the scene: {what}"));
+        let sizes = scene.grains().filter(|grains| grains.sizes.is_some());
+        match (self.buffer("radius"), sizes) {
+            (None, None) => Ok(()),
+            (Some(_), None) => wrong("its grains are of several sizes, and the scene has no grains.sizes"),
+            (None, Some(_)) => match self.particles {
+                0 => Ok(()),
+                _ => wrong("its grains have no radii, and the scene's are of several sizes"),
+            },
+            (Some(bytes), Some(grains)) => {
+                let radii: Vec<f32> = bytemuck::pod_collect_to_vec(bytes);
+                let span = grains.smallest() * (1.0 - ROUNDED)..=grains.radius * (1.0 + ROUNDED);
+                match radii.iter().all(|&radius| span.contains(&f64::from(radius))) {
+                    true => Ok(()),
+                    false => wrong("a grain is smaller or larger than grains.sizes allows"),
+                }
+            }
+        }
+    }
+}
+
 /// Bytes of a state with `particles` particles.
 pub fn state_bytes(scene: &Scene, particles: u32) -> u64 {
-    let each = saved(scene).map(|field| field.kind.bytes(scene.dimensions));
+    let each = saved(scene).map(|field| field.kind.bytes(scene));
     u64::from(particles) * each.sum::<u64>() + body_bytes(scene) as u64
 }
 
@@ -321,7 +350,7 @@ impl Simulation {
     pub fn save_state(&self) -> Result<State> {
         let count = self.count as usize;
         let particles = saved(&self.scene).map(|field| {
-            let bytes = field.kind.bytes(self.scene.dimensions) as usize;
+            let bytes = field.kind.bytes(&self.scene) as usize;
             (field.name, bytes * count)
         });
         let counters = [
@@ -359,7 +388,7 @@ impl Simulation {
         };
         let dimensions = self.scene.dimensions;
         let slot = 16 * contact_words(dimensions, rolls) as usize;
-        for grain in bytes.chunks_exact_mut(slot * contact_slots(dimensions) as usize) {
+        for grain in bytes.chunks_exact_mut(slot * contact_slots(&self.scene) as usize) {
             let is_free = |slot: &[u8]| slot[12..16] == [0; 4];
             if let Some(used) = grain.chunks_exact(slot).position(is_free) {
                 grain[slot * used..].fill(0);
@@ -528,7 +557,7 @@ impl Simulation {
     fn number_of(&self, field: &str, place: usize, bytes: &[u8]) -> Vec<u8> {
         let found = self.scene.fields().find(|known| known.name == field);
         let found = found.expect("fields end in fields of the same scene");
-        let width = found.kind.bytes(self.scene.dimensions) as usize;
+        let width = found.kind.bytes(&self.scene) as usize;
         let each = bytes.chunks_exact(width).map(|value| &value[4 * place..][..4]);
         each.flatten().copied().collect()
     }

@@ -77,7 +77,7 @@ impl Simulation {
     }
 
     fn ran_away(&self, speed: f64, step: f64) -> Story {
-        let radii = speed * step / self.scene.radius();
+        let radii = speed * step * self.scene.size_ratio() / self.scene.radius();
         let Some(fluid) = self.scene.fluid() else {
             return (
                 "too_fast",
@@ -117,12 +117,12 @@ impl Simulation {
     }
 
     fn crowded(&self) -> Story {
-        let room = contact_slots(self.scene.dimensions);
+        let room = contact_slots(&self.scene);
         (
             "crowded",
             "a grain touches more grains and walls than it can remember contacts".into(),
             format!(
-                "there is room for {room} of them, more than rigid grains can have: these overlap far too much"
+                "there is room for {room} of them, more than rigid grains usually have: these overlap far too much"
             ),
             "make them stiffer (grains.spring, or grains.young_modulus)".into(),
         )
@@ -142,7 +142,7 @@ impl Simulation {
     }
 
     fn lost(&self, speed: f64, step: f64) -> Story {
-        let radii = speed * step / self.scene.radius();
+        let radii = speed * step * self.scene.size_ratio() / self.scene.radius();
         (
             "lost",
             "a particle left the domain through a closed side".into(),

@@ -51,6 +51,7 @@ pub fn scene(dimensions: Dimensions, min: Vec3, max: Vec3, radius: f64, size: [u
             mixed: false,
             radius,
             mass: 1.0,
+            sizes: None,
             contact: Contact {
                 spring: 1.0,
                 damping: 0.0,
@@ -60,6 +61,7 @@ pub fn scene(dimensions: Dimensions, min: Vec3, max: Vec3, radius: f64, size: [u
                 attraction: 0.0,
                 global_damping: 0.0,
                 friction: None,
+                smallest: None,
             },
         }),
         boundary: Default::default(),

@@ -183,23 +183,40 @@ fn with_collider(before: ContactSum, c: u32, x: Vector, v: Vector) -> ContactSum
     offset += first(collider.velocity) * (f32(clock.step_in_segment) * parameters.time_step);
 #end
 #end
-    let radius = 0.5 * contact.diameter;
+#if sizes
+    let own = LARGEST_RADIUS * before.size;
+#else
+    let own = 0.5 * contact.diameter;
+#end
     let nearest = nearest_on(collider, x - offset);
 #if rotation
-    if nearest.distance >= contact.reach - radius {
+#if sizes
+    if nearest.distance >= own + (contact.reach - contact.diameter) {
+#else
+    if nearest.distance >= contact.reach - own {
+#end
         return before;
     }
     let approach = surface_velocity(collider, x - offset, nearest) - v;
-    let overlap = radius - nearest.distance;
-    let touch =
-        Touch(collider_key(c), -nearest.outwards, overlap, nearest.distance, approach, Rotation(), Vector(0.0));
+    let overlap = own - nearest.distance;
+    let arm = nearest.distance;
+#if sizes
+    let touch = Touch(collider_key(c), -nearest.outwards, overlap, arm, 0.0, approach, Rotation(), Vector(0.0));
+#else
+    let touch = Touch(collider_key(c), -nearest.outwards, overlap, arm, approach, Rotation(), Vector(0.0));
+#end
     return with_touch(before, touch, wall_pairing(before, u32(collider.spin.w)));
 #else
-    if nearest.distance >= radius {
+    if nearest.distance >= own {
         return before;
     }
     let approach = surface_velocity(collider, x - offset, nearest) - v;
-    return with_contact(before, -nearest.outwards, radius - nearest.distance, approach, contact.wall_damping);
+#if sizes
+    let damping = damping_by_mass(contact.wall_damping, mass_share(before.size));
+#else
+    let damping = contact.wall_damping;
+#end
+    return with_contact(before, -nearest.outwards, own - nearest.distance, approach, damping);
 #end
 }
 

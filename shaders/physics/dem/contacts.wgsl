@@ -39,19 +39,39 @@ fn pairing_with(sum: ContactSum, j: u32) -> Pairing {
     let other = relative_mass(body_mass_of(j));
     return heavier(pairing, 2.0 * mine * other / (mine + other));
 #else
+#if sizes
+    let other = size_of(j);
+    return sized(
+        pairing,
+        effective_share(mass_share(sum.size), mass_share(other)),
+        effective_share(sum.size, other),
+        effective_share(inertia_share(sum.size), inertia_share(other)),
+    );
+#else
     return pairing;
+#end
 #end
 }
 
 // The contact of grain i with grain j, at this distance of their centers.
 fn with_grain(sum: ContactSum, j: u32, normal: Vector, distance: f32, approach: Vector) -> ContactSum {
-    let overlap = contact.diameter - distance;
 #if measuring
-    let touch = Touch(0.0, normal, overlap, 0.5 * distance, approach, Rotation(), Vector(0.0));
+    let key = 0.0;
+    let rotation = Rotation();
+    let rest = Vector(0.0);
 #else
     let other = angular_velocity[j];
+    let key = number_of(other);
+    let rotation = unpack_rotation(other);
     let rest = rest_of(position[j]);
-    let touch = Touch(number_of(other), normal, overlap, 0.5 * distance, approach, unpack_rotation(other), rest);
+#end
+#if sizes
+    let own = LARGEST_RADIUS * sum.size;
+    let both = own + radius[j];
+    let arm = distance * own / both;
+    let touch = Touch(key, normal, both - distance, arm, distance - arm, approach, rotation, rest);
+#else
+    let touch = Touch(key, normal, contact.diameter - distance, 0.5 * distance, approach, rotation, rest);
 #end
     return with_touch(sum, touch, pairing_with(sum, j));
 }
@@ -69,6 +89,9 @@ fn sum_contacts(i: u32) -> ContactSum {
     sum.material = material[i];
 #end
 #end
+#if sizes
+    sum.size = size_of(i);
+#end
 #if rigid_bodies
     sum.body_mass = body_mass_of(i);
     let own_body = body[i];
@@ -82,9 +105,14 @@ fn sum_contacts(i: u32) -> ContactSum {
             let j = candidate(slot);
             let separation = unpack(position[j]) - x;
 #if rotation
-            if within(separation, contact.reach) && j != i {
+            let reach = contact.reach;
 #else
-            if within(separation, contact.diameter) && j != i {
+            let reach = contact.diameter;
+#end
+#if sizes
+            if within(separation, pair_reach(i, j, reach)) && j != i {
+#else
+            if within(separation, reach) && j != i {
 #end
 #if rigid_bodies
                 if own_body != 0u && body[j] == own_body {
@@ -101,8 +129,15 @@ fn sum_contacts(i: u32) -> ContactSum {
 #if rotation
                 sum = with_grain(sum, j, normal, distance, unpack(velocity[j]) - v);
 #else
+#if sizes
+                let overlap = LARGEST_RADIUS * sum.size + radius[j] - distance;
+                let mass = effective_share(mass_share(sum.size), mass_share(size_of(j)));
+                let damping = damping_by_mass(contact.damping, mass);
+#else
                 let overlap = contact.diameter - distance;
-                sum = with_contact(sum, normal, overlap, unpack(velocity[j]) - v, contact.damping);
+                let damping = contact.damping;
+#end
+                sum = with_contact(sum, normal, overlap, unpack(velocity[j]) - v, damping);
 #end
 #if attraction
                 sum.force += contact.attraction * separation;
@@ -121,7 +156,11 @@ fn sum_contacts(i: u32) -> ContactSum {
 
 // m/s²
 fn acceleration_of(sum: ContactSum, v: Vector) -> Vector {
+#if sizes
+    var acceleration = sum.force * (contact.inverse_mass / mass_share(sum.size)) + first(parameters.gravity);
+#else
     var acceleration = sum.force * contact.inverse_mass + first(parameters.gravity);
+#end
 #if global_damping
     acceleration -= contact.global_damping * v;
 #end

@@ -3,7 +3,8 @@
 // Across the contact the law pushes, F = f(δ) − c(δ) v_n, to the very end: it may pull shortly before the contact ends, so that
 // restitution is what was asked for. Along it a spring remembers how far the surfaces have slid, F = k_t ξ + c_t v_t, and
 // is cut back to Coulomb's limit μ F_n where it would pull harder (Cundall and Strack 1979; Luding 2008). Forces and torques
-// act where the surfaces meet, halfway between two centers, so that angular momentum stays.
+// act where the surfaces meet, halfway between two centers (between those of unequal grains, in the ratio of their radii), so
+// that angular momentum stays.
 //
 // Cohesion pulls with a constant force while grains overlap, and less with the distance of their surfaces, in a straight line to
 // nothing at its range, so that no energy is lost by it. Coulomb's limit is of what pushes, so grains that stick rub too.
@@ -11,6 +12,9 @@
 #import physics/dem/rotation
 #import physics/dem/frictional_contact
 #import <contact_law>
+#if sizes
+#import common/sizes
+#end
 #if !measuring
 #import physics/time_step
 #import physics/dem/history
@@ -25,6 +29,9 @@ struct ContactSum {
     force: Vector, // N
 #if mixed_grains
     material: u32, // number of the grain's
+#end
+#if sizes
+    size: f32, // the grain's radius over that of the largest
 #end
 #if rigid_bodies
     body_mass: f32, // of the grain's rigid body, over that of a grain; 0 where it is loose
@@ -49,6 +56,9 @@ struct Touch {
     normal: Vector, // from the grain to what it touches
     overlap: f32, // m
     arm: f32, // from the grain's center to the contact, m
+#if sizes
+    other_arm: f32, // from the other's center to the contact, m; 0 for walls
+#end
     approach: Vector, // velocity of the other less that of the grain, m/s
     rotation: Rotation, // of the other, rad/s; none for walls
     rest: Vector, // of the other's position, m; none for walls
@@ -76,6 +86,19 @@ fn heavier(pairing: Pairing, share: f32) -> Pairing {
 }
 #end
 
+#if sizes
+// Coefficients are those of two of the largest, or of one at a wall. Those of others follow from their effective mass, their
+// effective radius and their moment of inertia about the contact, as shares of the same of the largest.
+fn sized(pairing: Pairing, mass: f32, radius: f32, inertia: f32) -> Pairing {
+    var own = of_size(pairing, mass, radius);
+    own.rolling_limit *= radius;
+    own.rolling_stiffness *= radius * radius;
+    own.rolling_damping *= sqrt(inertia);
+    own.rolling_inertia *= inertia;
+    return own;
+}
+#end
+
 // Coefficients of the contact with a wall or obstacle of this material.
 fn wall_pairing(sum: ContactSum, material: u32) -> Pairing {
 #if mixed_grains
@@ -90,7 +113,11 @@ fn wall_pairing(sum: ContactSum, material: u32) -> Pairing {
 #if rigid_bodies
     return heavier(pairing, relative_mass(sum.body_mass));
 #else
+#if sizes
+    return sized(pairing, mass_share(sum.size), sum.size, inertia_share(sum.size));
+#else
     return pairing;
+#end
 #end
 }
 
@@ -130,7 +157,12 @@ fn with_touch(before: ContactSum, touch: Touch, pairing: Pairing) -> ContactSum 
     let pressing = max(push, 0.0);
 
     let arm = touch.arm * normal;
+#if sizes
+    let turning = velocity_at(touch.arm * sum.rotation + touch.other_arm * touch.rotation, normal);
+    let sliding = touch.approach - normal_speed * normal - turning;
+#else
     let sliding = touch.approach - normal_speed * normal - velocity_at(sum.rotation + touch.rotation, arm);
+#end
     var cursor = sum.cursor;
     var memory = recall(sum.grain, touch.key, &cursor);
     sum.cursor = cursor;

@@ -1,6 +1,9 @@
 // The contact law of grains: linear spring and dashpot (Harada 2007, Eq. 9 and 10), with shear and attraction
 // (Green 2012). Terms that a scene does not have are not in the shader.
 #import common/vector
+#if sizes
+#import common/sizes
+#end
 
 struct Contact {
     spring: f32, // N/m
@@ -15,9 +18,19 @@ struct Contact {
 
 var<uniform> contact: Contact;
 
+#if sizes
+// Of a dashpot, for the restitution of two of the largest: the coefficient for a contact of this share of their effective mass.
+fn damping_by_mass(damping: f32, share: f32) -> f32 {
+    return damping * sqrt(share);
+}
+#end
+
 // What the contacts of one grain add up to.
 struct ContactSum {
     force: Vector, // N
+#if sizes
+    size: f32, // the grain's radius over that of the largest
+#end
 #if measuring
     contacts: u32,
     normal_force: f32, // sum of magnitudes, N

@@ -5,7 +5,7 @@
 
 #import fields/measured
 
-#import physics/measure
+#import physics/dem/surface
 #if rotation
 #import fields/angular_velocity
 #end
@@ -25,7 +25,7 @@ fn measure_grains(thread: Thread) {
         contacts[i] = sum.contacts;
 #end
 #if column_pressure
-        pressure[i] = sum.normal_force / measure.surface;
+        pressure[i] = sum.normal_force / surface_of(sum);
 #end
 #end
     }
@@ -37,19 +37,34 @@ fn measure_grains(thread: Thread) {
         // The host adds energies of rigid bodies.
         let loose = select(0.0, 1.0, body[i] == 0u);
 #end
-        sums.kinetic_energy = 0.5 * measure.mass * dot(v, v);
+#if sizes
+        let mass = measure.mass * mass_share(sum.size);
+#else
+        let mass = measure.mass;
+#end
+        sums.kinetic_energy = 0.5 * mass * dot(v, v);
 #if rotation
+#if sizes
+        let inertia = contact.inertia * inertia_share(sum.size);
+#else
+        let inertia = contact.inertia;
+#end
         let w = length(unpack_rotation(angular_velocity[i]));
-        sums.kinetic_energy += 0.5 * contact.inertia * w * w;
+        sums.kinetic_energy += 0.5 * inertia * w * w;
 #end
         sums.potential_energy =
-            -measure.mass * dot(first(parameters.gravity), unpack(position[i]) - first(measure.reference));
+            -mass * dot(first(parameters.gravity), unpack(position[i]) - first(measure.reference));
 #if rigid_bodies
         sums.kinetic_energy *= loose;
         sums.potential_energy *= loose;
 #end
         sums.max_speed = length(v);
+#if sizes
+        // In radii of the grain; of two, that is more for the smaller one. The host divides by the largest radius.
+        sums.max_overlap = sum.overlap / sum.size;
+#else
         sums.max_overlap = sum.overlap;
+#end
         sums.contacts = sum.contacts;
     }
     sum_group(thread, sums);

@@ -6,7 +6,7 @@
 
 #import fields/measured
 
-#import physics/measure
+#import physics/dem/surface
 
 @compute @workgroup_size(GROUP_SIZE)
 fn measure_columns(thread: Thread) {
@@ -17,7 +17,7 @@ fn measure_columns(thread: Thread) {
         contacts[i] = sum.contacts;
 #end
 #if column_pressure
-        pressure[i] = sum.normal_force / measure.surface;
+        pressure[i] = sum.normal_force / surface_of(sum);
 #end
     }
 }

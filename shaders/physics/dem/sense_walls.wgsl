@@ -34,6 +34,12 @@ fn force_on(i: u32) -> Vector {
     sum.material = material[i];
 #end
 #end
+#if sizes
+    sum.size = size_of(i);
+    let own = LARGEST_RADIUS * sum.size;
+#else
+    let own = 0.5 * contact.diameter;
+#end
 #if rigid_bodies
     sum.body_mass = body_mass_of(i);
 #end
@@ -44,7 +50,7 @@ fn force_on(i: u32) -> Vector {
         let away = select(first(contact_walls.upper) - x, x - first(contact_walls.lower), side % 2u == 0u);
         var outwards = Vector(0.0);
         outwards[axis] = select(1.0, -1.0, side % 2u == 0u);
-        sum = with_side(sum, outwards, 0.5 * contact.diameter - away[axis], v);
+        sum = with_side(sum, outwards, own - away[axis], v);
 #end
     } else {
 #if colliders

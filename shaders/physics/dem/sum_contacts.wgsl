@@ -27,8 +27,13 @@ fn sum_contact_forces(thread: Thread) {
     }
 #end
     let acceleration = acceleration_of(sum, unpack(velocity[i]));
+#if sizes
+    let inverse_inertia = contact.inverse_inertia / inertia_share(sum.size);
+#else
+    let inverse_inertia = contact.inverse_inertia;
+#end
     contact_acceleration[i] = Motion(
         pack_with(acceleration, time_step()),
-        pack_rotation(contact.inverse_inertia * sum.torque, f32(sum.slots)),
+        pack_rotation(inverse_inertia * sum.torque, f32(sum.slots)),
     );
 }

@@ -29,8 +29,13 @@ fn side_material(outwards: Vector) -> u32 {
 }
 
 fn with_side(sum: ContactSum, outwards: Vector, overlap: f32, v: Vector) -> ContactSum {
+#if sizes
+    let arm = LARGEST_RADIUS * sum.size - overlap;
+    let touch = Touch(side_key(outwards), outwards, overlap, arm, 0.0, -v, Rotation(), Vector(0.0));
+#else
     let arm = 0.5 * contact.diameter - overlap;
     let touch = Touch(side_key(outwards), outwards, overlap, arm, -v, Rotation(), Vector(0.0));
+#end
     return with_touch(sum, touch, wall_pairing(sum, side_material(outwards)));
 }
 #else
@@ -38,14 +43,23 @@ fn with_side(sum: ContactSum, outwards: Vector, overlap: f32, v: Vector) -> Cont
 // branches. (Branches here crash the shader compiler of Mesa 22.3's software driver.)
 fn with_side(sum: ContactSum, outwards: Vector, overlap: f32, v: Vector) -> ContactSum {
     let approach = select(Vector(0.0), -v, overlap > 0.0);
-    return with_contact(sum, outwards, max(overlap, 0.0), approach, contact.wall_damping);
+#if sizes
+    let damping = damping_by_mass(contact.wall_damping, mass_share(sum.size));
+#else
+    let damping = contact.wall_damping;
+#end
+    return with_contact(sum, outwards, max(overlap, 0.0), approach, damping);
 }
 #end
 
 fn with_walls(before: ContactSum, x: Vector, v: Vector) -> ContactSum {
-    let radius = Vector(0.5 * contact.diameter);
-    let below = radius - (x - first(contact_walls.lower));
-    let above = radius - (first(contact_walls.upper) - x);
+#if sizes
+    let own = Vector(LARGEST_RADIUS * before.size);
+#else
+    let own = Vector(0.5 * contact.diameter);
+#end
+    let below = own - (x - first(contact_walls.lower));
+    let above = own - (first(contact_walls.upper) - x);
     var sum = before;
 #if two_dimensional
     sum = with_side(sum, vec2f(-1.0, 0.0), below.x, v);

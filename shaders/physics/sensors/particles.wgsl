@@ -4,6 +4,9 @@
 #import physics/fluid/boundary_particles
 #import physics/sensors/field
 #import physics/sensors/sweep
+#if sizes
+#import common/sizes
+#end
 
 // A particle's position, or that of its image in the box, where space repeats.
 fn seen_at(x: Vector, probe: Probe) -> Vector {
@@ -23,6 +26,14 @@ fn density_of(i: u32, probe: Probe) -> f32 {
 #end
 }
 
+fn volume_of(i: u32, probe: Probe) -> f32 {
+#if sizes
+    return probe.volume * mass_share(size_of(i));
+#else
+    return probe.volume;
+#end
+}
+
 @compute @workgroup_size(GROUP_SIZE)
 fn sense_particles(thread: Thread) {
     let share = share_of(thread, 0u);
@@ -39,7 +50,7 @@ fn sense_particles(thread: Thread) {
                 let away = abs(dot(x, first(probe.direction)) - probe.direction.w);
                 // A hat with integral one: on a lattice its sum is exact.
                 let hat = max(1.0 - away / probe.reach, 0.0) / probe.reach;
-                let flow = hat * probe.volume * dot(unpack(velocity[i]), first(probe.direction));
+                let flow = hat * volume_of(i, probe) * dot(unpack(velocity[i]), first(probe.direction));
                 found.a = vec4f(flow, density_of(i, probe) * flow, 0.0, 0.0);
             }
             case PROBE_MEAN: {

@@ -14,6 +14,9 @@ struct Corner {
     @location(1) @interpolate(flat) toward: vec4f, // w: rho
     @location(2) @interpolate(flat) center: vec3f,
     @location(3) @interpolate(flat) mark: u32,
+#if sizes
+    @location(4) @interpolate(flat) radius: f32,
+#end
 }
 
 @vertex
@@ -22,12 +25,15 @@ fn place_marked_sphere(@builtin(vertex_index) index: u32, @builtin(instance_inde
     corner.clip = NOWHERE;
     if splat[i] >= 0x1000000u && is_drawn(i) { // otherwise hidden
         let center = to_3d(unpack(position[i]));
-        let quad = splat_quad(center, picture.radius);
+        let quad = splat_quad(center, drawn_radius(i));
         let at = strip_corner(index);
         corner.offset = quad.across * at.x + quad.up * at.y;
         corner.clip = picture.view_projection * vec4f(center + corner.offset * quad.half, 1.0);
         corner.toward = vec4f(quad.toward, quad.rho);
         corner.center = center;
+#if sizes
+        corner.radius = drawn_radius(i);
+#end
         corner.mark = i + 1u;
     }
     return corner;
@@ -39,6 +45,11 @@ fn mark_sphere(corner: Corner) -> Mark {
         discard;
     }
     let normal = sphere_normal(corner.offset, corner.toward.xyz, corner.toward.w);
-    let clip = picture.view_projection * vec4f(corner.center + picture.radius * normal, 1.0);
+#if sizes
+    let radius = corner.radius;
+#else
+    let radius = picture.radius;
+#end
+    let clip = picture.view_projection * vec4f(corner.center + radius * normal, 1.0);
     return Mark(corner.mark, clip.z / clip.w);
 }

@@ -12,6 +12,9 @@
 #import physics/dfsph/bodies/numbers
 #end
 #import <storage>
+#if sizes
+#import common/sizes
+#end
 #if boundary_in_reach
 #import storage/lists/reach_word
 
@@ -47,7 +50,11 @@ fn list_range(i: u32, row: u32, wall: bool, y: Vector, range: vec2u, count: vec2
 #else
         // Boundary particles ask for the fluid only.
         let wanted = j != i && !(wall && is_boundary(j));
+#if sizes
+        let reach = pair_reach(i, j, grid.list_reach);
+#else
         let reach = grid.list_reach;
+#end
 #end
         if wanted && within(unpack(position[j]) - y, reach) {
 #if walls_apart

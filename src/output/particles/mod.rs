@@ -79,6 +79,13 @@ impl ParticleOutput {
         }
     }
 
+    /// Has files hold this column too.
+    pub fn add(&mut self, column: Column) {
+        if !self.columns.contains(&column) {
+            self.columns.push(column);
+        }
+    }
+
     /// Frames of a run that get files.
     pub fn frames(&self, frames: u32) -> u32 {
         frames.div_ceil(self.every)

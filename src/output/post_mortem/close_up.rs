@@ -24,8 +24,8 @@ const HEIGHT: f64 = 4.0;
 pub fn draw(scene: &Scene, settings: &Settings, around: &Neighborhood) -> Result<Vec<u8>> {
     let center = around.local();
     let in_front = center.z + 0.01 * scene.radius() as f32;
-    let mut shown: Vec<(Vec3, Role)> = around.shown.clone();
-    shown.retain(|(position, _)| position.z <= in_front);
+    let mut shown: Vec<(Vec3, f32, Role)> = around.shown.clone();
+    shown.retain(|(position, ..)| position.z <= in_front);
     let mut scene = framed(scene, center);
     let free = scene.first_boundary().max(shown.len() as u32);
     scene.capacity = free + scene.boundary.len() as u32;
@@ -37,11 +37,13 @@ pub fn draw(scene: &Scene, settings: &Settings, around: &Neighborhood) -> Result
     };
     let plan = Plan::new(&scene, &gpu.limits, &wanted)?;
     let mut simulation = Simulation::new(gpu, &scene, &plan)?;
-    let mut colors: Vec<f32> = shown.iter().map(|(_, role)| color(*role)).collect();
+    let mut colors: Vec<f32> = shown.iter().map(|(.., role)| color(*role)).collect();
     colors.resize(scene.capacity as usize, 0.0);
     simulation.give_column(&colors)?;
-    let global: Vec<DVec3> = shown.iter().map(|(p, _)| p.as_dvec3() + scene.origin).collect();
-    let state = State::of_particles(&scene, 0, &global, &vec![Vec3::ZERO; global.len()]);
+    let global: Vec<DVec3> = shown.iter().map(|(p, ..)| p.as_dvec3() + scene.origin).collect();
+    let radius: Vec<f32> = shown.iter().map(|(_, radius, _)| *radius).collect();
+    let radius = scene.has_field("radius").then_some(&radius[..]);
+    let state = State::of_particles(&scene, 0, &global, &vec![Vec3::ZERO; global.len()], radius);
     simulation.restore(&state)?;
     let mut frame = simulation.show(0)?;
     while let Some(next) = simulation.finish_frame()? {

@@ -20,7 +20,7 @@ pub struct Neighborhood {
     pub particle: Seen,
     pub neighbors: Vec<Neighbor>,
     /// What a picture shows: local positions, metres, the particle first, and what each is.
-    pub shown: Vec<(Vec3, Role)>,
+    pub shown: Vec<(Vec3, f32, Role)>,
 }
 
 /// What a point of the picture is.
@@ -74,7 +74,7 @@ pub struct Neighbor {
     /// Of a fluid: its pressure, Pa.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pressure_pa: Option<f32>,
-    /// Of grains: how deep the two overlap, as a share of the radius.
+    /// Of grains: how deep the two overlap, as a share of the radius, that of the smaller.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overlap: Option<f32>,
 }
@@ -89,6 +89,8 @@ struct Columns<'a> {
     /// ρ/ρ₀ − 1 and Pa.
     fluid: Vec<[f32; 2]>,
     material: Vec<u32>,
+    /// Metres; of grains of several sizes.
+    radius: Vec<f32>,
 }
 
 impl Neighborhood {
@@ -111,7 +113,7 @@ impl Neighborhood {
             .iter()
             .filter(|(_, way)| is_near(way))
             .take(MOST_NEIGHBORS)
-            .map(|&(other, way)| columns.neighbor(other, way));
+            .map(|&(other, way)| columns.neighbor(slot, other, way));
         let role = |other: usize, way: &Vec3| match (columns.is_boundary(other), is_near(way)) {
             (true, _) => Role::Wall,
             (false, true) => Role::Neighbor,
@@ -119,11 +121,13 @@ impl Neighborhood {
         };
         let shown = around
             .iter()
-            .map(|(other, way)| (center + *way, role(*other, way)));
+            .map(|(other, way)| (center + *way, columns.radius(*other), role(*other, way)));
         Some(Self {
             particle: columns.seen(slot, chosen_as),
             neighbors: neighbors.collect(),
-            shown: std::iter::once((center, Role::Particle)).chain(shown).collect(),
+            shown: std::iter::once((center, columns.radius(slot), Role::Particle))
+                .chain(shown)
+                .collect(),
         })
     }
 
@@ -137,6 +141,7 @@ impl<'a> Columns<'a> {
     fn new(scene: &'a Scene, state: &'a State) -> Option<Self> {
         let pairs = state.buffer("fluid_state").unwrap_or_default().chunks_exact(8);
         let materials = state.buffer("material").unwrap_or_default().chunks_exact(4);
+        let radii = state.buffer("radius").unwrap_or_default().chunks_exact(4);
         let columns = Self {
             scene,
             state,
@@ -145,6 +150,7 @@ impl<'a> Columns<'a> {
             velocity: state.vectors("velocity")?,
             fluid: pairs.map(bytemuck::pod_read_unaligned).collect(),
             material: materials.map(bytemuck::pod_read_unaligned).collect(),
+            radius: radii.map(bytemuck::pod_read_unaligned).collect(),
         };
         let count = columns.ids.len();
         (columns.position.len() == count && columns.velocity.len() == count).then_some(columns)
@@ -203,13 +209,22 @@ impl<'a> Columns<'a> {
         }
     }
 
-    fn neighbor(&self, slot: usize, way: Vec3) -> Neighbor {
+    /// Metres.
+    fn radius(&self, slot: usize) -> f32 {
+        self.radius
+            .get(slot)
+            .copied()
+            .unwrap_or(self.scene.radius() as f32)
+    }
+
+    /// The particle in this slot, seen from that in the slot `center`.
+    fn neighbor(&self, center: usize, slot: usize, way: Vec3) -> Neighbor {
         let is_boundary = self.is_boundary(slot);
-        let radius = self.scene.radius() as f32;
+        let [one, other] = [center, slot].map(|slot| self.radius(slot));
         let overlap = self
             .scene
             .grains()
-            .map(|_| (2.0 * radius - way.length()).max(0.0) / radius);
+            .map(|_| (one + other - way.length()).max(0.0) / one.min(other));
         Neighbor {
             id: self.ids[slot],
             is_boundary,
@@ -257,7 +272,7 @@ mod tests {
         let mut velocity = vec![Vec3::ZERO; global.len()];
         // At the lower left corner.
         velocity[0] = Vec3::X;
-        let state = State::of_particles(&scene, 3, &global, &velocity);
+        let state = State::of_particles(&scene, 3, &global, &velocity, None);
         let violation = Violation {
             guard: "energy",
             frame: 4,
@@ -287,7 +302,7 @@ mod tests {
         );
         let ways: Vec<Vec3> = found.shown[1..5]
             .iter()
-            .map(|(p, _)| *p - found.local())
+            .map(|(p, ..)| *p - found.local())
             .collect();
         let sum = ways.iter().fold(Vec3::ZERO, |sum, way| sum + *way);
         assert!(sum.length() < 1e-3 * spacing, "{ways:?}");

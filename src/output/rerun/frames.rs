@@ -84,11 +84,14 @@ impl Frames {
                 &TextLog::new(note.as_str()).with_level(TextLogLevel::INFO),
             )?;
         }
-        let radius = self.scene.radius() * self.scene.render.splat_scale;
-        stream.log_static(
-            "scene/particles",
-            &Points3D::update_fields().with_radii([radius as f32]),
-        )?;
+        // What is static hides what comes with frames, as radii of grains of several sizes do.
+        if !self.scene.has_field("radius") {
+            let radius = self.scene.radius() * self.scene.render.splat_scale;
+            stream.log_static(
+                "scene/particles",
+                &Points3D::update_fields().with_radii([radius as f32]),
+            )?;
+        }
         if let Some(camera) = self.camera.as_ref().filter(|camera| !camera.turns) {
             let (pinhole, pose) = camera.place(&self.scene, 0.0, self.origin);
             stream.log_static("scene/camera", &pinhole)?;
@@ -203,6 +206,10 @@ impl Frames {
             (point + shift).as_vec3().to_array()
         };
         let mut points = Points3D::new(shown.clone().map(point));
+        if let Some(Values::Float(radii)) = column("radius").map(|radius| &radius.values) {
+            let scale = self.scene.render.splat_scale as f32;
+            points = points.with_radii(shown.clone().map(|&id| scale * radii[id as usize]));
+        }
         if let Some(colored) = column(self.scene.color.column.name) {
             points = points.with_colors(shown.map(|&id| self.color(colored, id)));
         }

@@ -14,8 +14,8 @@ use crate::output::progress::Progress;
 use crate::output::text::bytes;
 use crate::output::{Sink, columns_named};
 use crate::plan::{Plan, Wanted};
-use crate::scene::Scene;
 use crate::scene::model::View;
+use crate::scene::{Scene, column};
 
 impl Target {
     /// A viewer on this machine.
@@ -75,7 +75,8 @@ impl Settings {
     pub fn want(&self, scene: &Scene, pictures: bool, wanted: &mut Wanted) {
         let share = self.share(scene, pictures);
         let position = columns_named(["position"]).unwrap_or_default();
-        for column in position.into_iter().chain([scene.color.column]) {
+        let radius = scene.has_field("radius").then(|| *column::RADIUS);
+        for column in position.into_iter().chain(radius).chain([scene.color.column]) {
             if !wanted.columns.contains(&column) {
                 wanted.columns.push(column);
             }

@@ -252,10 +252,21 @@ impl<'a> Cloud<'a> {
         high[axis] += reach as f32;
         let (mut volumes, mut masses) = (0.0, 0.0);
         let material = self.snapshot.column("material");
+        let has_sizes = self.scene.has_field("radius");
+        let radius = self.snapshot.column("radius").filter(|_| has_sizes);
+        if has_sizes && radius.is_none() {
+            return Err(self.missing("radius"));
+        }
         for i in self.inside(low, high) {
             let away = self.nearest(self.position[i] - min.as_dvec3())[axis].abs();
             let hat = (1.0 - away / reach).max(0.0) / reach;
-            let flow = hat * volume * velocity[i][axis];
+            let share = match radius {
+                Some(column) => {
+                    (column.values[i] / self.scene.radius()).powi(self.scene.dimensions.count() as i32)
+                }
+                None => 1.0,
+            };
+            let flow = hat * share * volume * velocity[i][axis];
             let materials = self.scene.fluid().map_or(&[][..], |fluid| &fluid.materials);
             let own = match material {
                 Some(column) => materials.get(column.values[i] as usize).map(|m| m.density),

@@ -29,6 +29,13 @@ impl Sequence {
         let manifest: Value =
             serde_json::from_slice(&text).map_err(|reason| Error::file(&path, "read", reason, help))?;
         let scene = &manifest["scene"];
+        if scene["grains"]["sizes"].is_object() {
+            return Err(Error::usage(
+                format!("the grains of {} are of several sizes", run.display()),
+                "surfaces are made around particles of one size; `sliceflow usd` keeps each grain's own, and points have \
+                 a column `radius`",
+            ));
+        }
         let spacing = scene["fluid"]["spacing"].as_f64();
         let radius = scene["grains"]["radius"]
             .as_f64()

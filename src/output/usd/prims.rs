@@ -21,11 +21,23 @@ pub fn points(scene: &Scene, snapshot: &Snapshot) -> Result<Layer, String> {
         .collect();
     let radius = scene.radius();
     put_places(&mut layer, &place, radius);
-    layer.put(
-        "float[] widths",
-        "interpolation = \"constant\"",
-        numbers([2.0 * radius as f32]),
-    );
+    match scene.has_field("radius") {
+        true => {
+            let column = snapshot
+                .column("radius")
+                .ok_or("it does not tell how large its grains are")?;
+            layer.put(
+                "float[] widths",
+                "interpolation = \"vertex\"",
+                numbers(column.values.iter().map(|&radius| finite(2.0 * radius))),
+            );
+        }
+        false => layer.put(
+            "float[] widths",
+            "interpolation = \"constant\"",
+            numbers([2.0 * radius as f32]),
+        ),
+    }
     for column in &snapshot.columns {
         let name = column.name.as_str();
         let values = column.values.iter().map(|&value| finite(value));

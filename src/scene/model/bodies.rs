@@ -23,9 +23,9 @@ pub struct Body {
     /// Name of one of `fluid.materials`, the first when left out; or of `grains.materials`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
-    /// How its particles stand at the start.
-    #[serde(default)]
-    pub arrangement: Arrangement,
+    /// How its particles stand at the start: on a `lattice` when left out, and `random` where grains are of several sizes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arrangement: Option<Arrangement>,
     /// Distance of neighbors on the lattice, metres; a grain's diameter when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-9, max = 1e6))]
@@ -34,18 +34,15 @@ pub struct Body {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 0.5))]
     pub jitter: f64,
-    /// Share of the shape's volume that a random arrangement tries to fill with grains.
-    #[serde(default = "quarter")]
+    /// Share of the shape's volume that a random arrangement tries to fill with grains; 0.25 when left out, and 0.5 where they
+    /// are of several sizes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.001, max = 0.5))]
-    pub fraction: f64,
+    pub fraction: Option<f64>,
     /// Makes it a rigid body; for grains whose law is `linear` or `hertz`, whose `spacing` in it is between a grain's radius
     /// and its diameter, and for fluids of the solver `dfsph`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rigid: Option<Rigid>,
-}
-
-fn quarter() -> f64 {
-    0.25
 }
 
 /// How particles stand at the start, or when they come.
@@ -55,7 +52,8 @@ pub enum Arrangement {
     /// A square or cubic lattice.
     #[default]
     Lattice,
-    /// Random points no nearer than a diameter (random sequential addition), seeded.
+    /// Random points no nearer than a diameter (random sequential addition), seeded. Grains of several sizes are pushed apart
+    /// from random points until none overlap.
     Random,
 }
 

@@ -3,14 +3,20 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Equal grains and their contact law. By `spring_dashpot` they do not rotate; by `linear` and `hertz` they rotate, rub and
+use super::Sizes;
+
+/// Grains and their contact law. By `spring_dashpot` they do not rotate; by `linear` and `hertz` they rotate, rub and
 /// resist rolling, so that they come to rest as a heap.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Grains {
-    /// Radius of every grain, metres.
+    /// Radius of every grain, metres; of the largest, where there are `sizes`.
     #[schemars(range(min = 1e-9, max = 1e6))]
     pub radius: f64,
+    /// Makes grains of several sizes. Contacts then have the coefficients of their own effective mass and radius: `restitution`
+    /// and `contact_time` hold for each two grains.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sizes: Option<Sizes>,
     /// Density of a grain's material, kg/m³ (a 2D grain is a disc one metre thick).
     #[serde(default = "sand")]
     #[schemars(range(min = 1e-6, max = 1e6))]

@@ -62,6 +62,7 @@ fn ply_and_csv_give_the_same_particles() {
             DVec3::new(0.0, 0.0, 9.0),
         ]),
         id: Some(vec![4_000_000_000, 3]),
+        radius: None,
     };
     for (name, bytes) in [
         ("little.ply", binary(false)),

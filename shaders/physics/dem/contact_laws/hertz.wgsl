@@ -14,3 +14,17 @@ fn respond(pairing: Pairing, overlap: f32, depth: f32) -> Response {
         pairing.shear_damping * fourth_root,
     );
 }
+
+#if sizes
+// The same for a contact of these shares of effective mass and radius.
+fn of_size(pairing: Pairing, mass: f32, radius: f32) -> Pairing {
+    var own = pairing;
+    let spring = sqrt(radius);
+    let dashpot = sqrt(spring * mass);
+    own.stiffness *= spring;
+    own.shear_stiffness *= spring;
+    own.damping *= dashpot;
+    own.shear_damping *= dashpot;
+    return own;
+}
+#end

@@ -11,3 +11,20 @@ fn respond(pairing: Pairing, overlap: f32, depth: f32) -> Response {
         pairing.shear_damping,
     );
 }
+
+#if sizes
+// The same for a contact of this share of effective mass: restitution stays, and the duration too where springs follow masses.
+fn of_size(pairing: Pairing, mass: f32, radius: f32) -> Pairing {
+    var own = pairing;
+#if springs_by_mass
+    let dashpot = mass;
+    own.stiffness *= mass;
+    own.shear_stiffness *= mass;
+#else
+    let dashpot = sqrt(mass);
+#end
+    own.damping *= dashpot;
+    own.shear_damping *= dashpot;
+    return own;
+}
+#end
