@@ -14,6 +14,7 @@ use sliceflow::physics::layout::SHARED;
 use sliceflow::plan::{PassRow, Phase, Plan, Wanted};
 use sliceflow::scene::Scene;
 use sliceflow::scene::column::{COLUMNS, Source, find};
+use sliceflow::scene::model::SurfaceKernel;
 use sliceflow::surface::layout::{Surface, SurfaceTotals};
 use sliceflow::surface::{self, Shape};
 
@@ -428,6 +429,16 @@ fn every_planned_buffer_is_used_by_a_pass() {
 /// Shaders of surfaces: those that look at particles, whatever search they come from, and those that look at voxels.
 #[test]
 fn every_shader_of_surfaces_is_valid_and_shares_its_structs() {
+    const PARTS: [&str; 8] = [
+        "implicit",
+        "mirrors",
+        "unit",
+        "blend",
+        "cells",
+        "marks",
+        "surface",
+        "cube_table",
+    ];
     let of_particles = [
         "find_shell",
         "list_shell",
@@ -452,12 +463,18 @@ fn every_shader_of_surfaces_is_valid_and_shares_its_structs() {
     };
     for scene in &scenes {
         let plan = Plan::new(scene, &Limits::PROMISED, &Wanted::default()).expect("a plan");
-        for addressing in surface::ADDRESSINGS {
+        let kernels = [SurfaceKernel::Anisotropic, SurfaceKernel::Isotropic];
+        for (addressing, kernel) in surface::ADDRESSINGS
+            .into_iter()
+            .flat_map(|a| kernels.map(|k| (a, k)))
+        {
             let shape = Shape {
                 spacing: 1.0,
                 reach: 2.5,
                 width: 0.5,
                 addressing,
+                kernel,
+                drops: None,
                 sides: [[None; 2]; 3],
             };
             let [mut particles, voxels] = surface::variants(&plan.variant, &shape);
@@ -467,7 +484,9 @@ fn every_shader_of_surfaces_is_valid_and_shares_its_structs() {
             for path in compose::files() {
                 match path.strip_prefix("surface/") {
                     Some(file) if of_particles.contains(&file) => load(file, &particles),
-                    Some("implicit" | "cells" | "marks" | "surface" | "cube_table") | None => {}
+                    // What others import.
+                    Some(file) if PARTS.contains(&file) || file.contains('/') => {}
+                    None => {}
                     Some(file) => load(file, &voxels),
                 }
             }

@@ -5,12 +5,12 @@ mod common;
 use glam::Vec3;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use sliceflow::gpu::{AdapterChoice, Buffers, Gpu, PassPlan, readback};
+use sliceflow::gpu::{AdapterChoice, Buffers, Gpu, Kernels, PassPlan, readback};
 use sliceflow::neighbors::{Grid, STORAGES, first_grid};
 use sliceflow::physics::layout::Parameters;
 use sliceflow::plan::{Phase, Plan, Wanted};
 use sliceflow::scene::Scene;
-use sliceflow::simulation::passes::{Kernels, Passes};
+use sliceflow::simulation::passes::Passes;
 
 /// Around the sizes of workgroups (64), of scanning workgroups (256), of blocks, and of 2^16.
 const SIZES: &[usize] = &[0, 1, 2, 31, 255, 256, 257, 65_537, 400_000];

@@ -27,7 +27,7 @@ pub use state::State;
 use crate::error::{Error, Result};
 use crate::gpu::readback::Ring;
 use crate::gpu::timing::Timer;
-use crate::gpu::{BufferPlan, Buffers, Gpu};
+use crate::gpu::{BufferPlan, Buffers, Gpu, Kernels};
 use crate::neighbors::{Grid, boxes, lists};
 use crate::physics::collider::offset_at;
 use crate::physics::layout::{Clock, Guard, Occupancy, Overflow, Parameters, StepControl, Sums};
@@ -36,7 +36,7 @@ use crate::plan::Plan;
 use crate::render::Renderer;
 use crate::render::passes::images;
 use crate::scene::{Action, Matter, Scene};
-use passes::{Kernels, Passes, Step, recorded};
+use passes::{Passes, Step, recorded};
 use segments::{Segment, segments};
 use submissions::Submissions;
 
@@ -119,6 +119,15 @@ impl Simulation {
     ///
     /// Where the device has no room for the plan's buffers, or refuses a pass.
     pub fn new(gpu: Gpu, scene: &Scene, plan: &Plan) -> Result<Self> {
+        Self::with_kernels(gpu, scene, plan, Kernels::default())
+    }
+
+    /// The same, with what another simulation on this device has compiled.
+    ///
+    /// # Errors
+    ///
+    /// As those of [`Simulation::new`].
+    pub fn with_kernels(gpu: Gpu, scene: &Scene, plan: &Plan, mut kernels: Kernels) -> Result<Self> {
         let mut scene = match plan.lists_left_out {
             Some(_) => lists::without(scene),
             None => scene.clone(),
@@ -134,7 +143,6 @@ impl Simulation {
             Some(view) => Some(Renderer::new(&gpu, &scene, &plan.variant, &mut buffers, view)?),
             None => None,
         };
-        let mut kernels = Kernels::default();
         let passes = Passes::new(&gpu, plan, &buffers, &mut kernels)?;
         Ok(Self {
             passes,
@@ -168,6 +176,11 @@ impl Simulation {
 
     pub fn gpu(&self) -> &Gpu {
         &self.gpu
+    }
+
+    /// What it has compiled, for [`Simulation::with_kernels`].
+    pub fn into_kernels(self) -> Kernels {
+        self.kernels
     }
 
     /// The device's buffers, by name.

@@ -1,16 +1,9 @@
 //! A plan's passes on a device.
 
-use std::collections::BTreeMap;
-
 use crate::error::Result;
-use crate::gpu::compose::compose;
 use crate::gpu::pass::INDEX_STRIDE;
-use crate::gpu::{Buffers, Gpu, Groups, Items, Kernel, Pass, PassPlan, Repeat, Shader};
+use crate::gpu::{Buffers, Gpu, Groups, Items, Kernels, Pass, PassPlan, Repeat};
 use crate::plan::{Phase, Plan};
-
-/// Compiled entry points by the text of their shader and their name; they outlive the buffers that passes bind. One shader
-/// file may be composed differently from phase to phase.
-pub type Kernels = BTreeMap<(String, String), Kernel>;
 
 /// A pass and how many threads it runs.
 pub struct Step {
@@ -64,13 +57,7 @@ impl Passes {
         let mut made = |phase, back: bool| -> Result<Vec<Step>> {
             let variant = plan.variant_of(phase);
             let step = |planned: &PassPlan| {
-                let composed = compose(&planned.shader, &variant)?;
-                let key = (composed.text.clone(), planned.entry.clone());
-                if !kernels.contains_key(&key) {
-                    let shader = Shader::from_composed(&composed)?;
-                    kernels.insert(key.clone(), Kernel::new(gpu, &shader, &planned.entry)?);
-                }
-                let kernel = &kernels[&key];
+                let kernel = kernels.get(gpu, &variant, &planned.shader, &planned.entry)?;
                 let place = planned.index.and_then(|index| indices.binary_search(&index).ok());
                 let pass = match place {
                     Some(place) => kernel.numbered_pass(gpu, buffers, place)?,
