@@ -15,7 +15,7 @@ fn evaluate_nodes(thread: Thread) {
     var value = ABSENT;
     if is_marked(node) {
         let x = node_place(node_of(node));
-        value = max(of_particles(around_point(x)), beyond_sides(x));
+        value = max(value_of(field_at(x)), beyond_sides(x));
     }
     surface_value[voxel] = value;
 }

@@ -1,5 +1,4 @@
-// Normals of the mesh, outward: away from a mean of the particles, which is smoother than the gradient of the implicit
-// function; on a side of the domain, the side's.
+// Normals of the mesh, outward; on a side of the domain, the side's.
 #import common/thread
 #import surface/implicit
 
@@ -14,11 +13,6 @@ fn side_normal(x: vec3f) -> vec3f {
     return select(vec3f(0.0), outward, beyond == vec3f(most));
 }
 
-fn unit_of(v: vec3f) -> vec3f {
-    let length = length(v);
-    return select(vec3f(0.0, 1.0, 0.0), v / length, length > 0.0);
-}
-
 @compute @workgroup_size(GROUP_SIZE)
 fn find_normals(thread: Thread) {
     let vertex = item_index(thread);
@@ -26,10 +20,9 @@ fn find_normals(thread: Thread) {
         return;
     }
     let x = mesh_position[vertex].xyz;
-    let around = around_point(x);
-    // Farther particles would turn the normals of drops and strands.
-    var normal = mix(unit_of(-around.mean), unit_of(around.outward), crowd(around));
-    if beyond_sides(x) > of_particles(around) {
+    let field = field_at(x);
+    var normal = outward_of(field);
+    if beyond_sides(x) > value_of(field) {
         normal = side_normal(x);
     }
     mesh_normal[vertex] = vec4f(unit_of(normal), 0.0);

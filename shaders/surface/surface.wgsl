@@ -13,6 +13,10 @@ struct Surface {
     shell: u32, // particles near the surface
     voxels: u32,
     vertices: u32,
+    spacing: f32, // of the particles
+    neighbor_reach: f32, // how far away a neighbor may be
+    fewest: f32, // particles with fewer neighbors have no part in the surface
+    reserved: u32,
 }
 
 var<uniform> surface: Surface;

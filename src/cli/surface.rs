@@ -15,7 +15,7 @@ use crate::output::surface::{
 };
 use crate::output::text::{bytes, count, seconds};
 use crate::scene::Scene;
-use crate::scene::model::Addressing;
+use crate::scene::model::{Addressing, SurfaceKernel};
 use crate::surface::Figures;
 
 /// Turns a run's particles into surfaces, one mesh per frame
@@ -23,9 +23,9 @@ use crate::surface::Figures;
 /// Reads the particle files that `sliceflow run --particles` has written, and writes surface_000000.ply … beside them.
 /// Made with splashsurf (Löschner et al. 2023): smoothed, closed, ended at walls. Lengths are in particle radii.
 ///
-/// With --on-device the graphics adapter makes them instead: the implicit function of the particles (Zhu and Bridson 2005)
-/// is stored in a grid whose memory follows what is near the surface, and marching cubes make closed meshes of it, the same
-/// bytes every time.
+/// With --on-device the graphics adapter makes them instead: the implicit function of the particles (Zhu and Bridson 2005,
+/// or with `--kernel anisotropic` Yu and Turk 2013) is stored in a grid whose memory follows what is near the surface, and
+/// marching cubes make closed meshes of it, the same bytes every time.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -56,6 +56,14 @@ pub struct Args {
         value_parser = PossibleValuesParser::new(["bitmap", "rows", "sliced"]),
     )]
     grid: Option<String>,
+    /// Kernels of --on-device: as flat as what is around a particle, or the same in all directions [default: isotropic]
+    #[arg(
+        long,
+        value_name = "KERNEL",
+        requires = "on_device",
+        value_parser = PossibleValuesParser::new(["anisotropic", "isotropic"]),
+    )]
+    kernel: Option<String>,
     #[command(flatten)]
     device: DeviceArgs,
     /// Smoothing length, radii; the kernel reaches twice as far
@@ -140,7 +148,7 @@ pub fn main(args: &Args) -> Result<()> {
         ));
     }
     let device = match args.on_device {
-        true => Some(OnDevice::open(&adapter, addressing(args))?),
+        true => Some(OnDevice::open(&adapter, addressing(args), kernel(args))?),
         false => None,
     };
     let made = make_surfaces(&recorded, &walls, out, &settings, device.as_ref())?;
@@ -182,6 +190,13 @@ fn addressing(args: &Args) -> Addressing {
         Some("rows") => Addressing::Rows,
         Some("sliced") => Addressing::Sliced,
         _ => Addressing::Bitmap,
+    }
+}
+
+fn kernel(args: &Args) -> SurfaceKernel {
+    match args.kernel.as_deref() {
+        Some("anisotropic") => SurfaceKernel::Anisotropic,
+        _ => SurfaceKernel::Isotropic,
     }
 }
 

@@ -47,6 +47,24 @@ impl Buffers {
         Ok(())
     }
 
+    /// Sees to it that a buffer has room for so many bytes. One that is large enough stays, with what it holds; one that has
+    /// become too small is made anew, with a quarter more where the adapter has that.
+    ///
+    /// # Errors
+    ///
+    /// Where the adapter has no room for it.
+    pub fn reserve(&mut self, gpu: &Gpu, name: &str, bytes: u64, usage: Usage) -> Result<()> {
+        match self.by_name.get(name) {
+            Some(buffer) if buffer.size() >= bytes => Ok(()),
+            Some(_) => {
+                let more = (bytes + bytes / 4).next_multiple_of(16).min(gpu.limits.largest());
+                self.create(gpu, name, more.max(bytes), usage)
+                    .or_else(|_| self.create(gpu, name, bytes, usage))
+            }
+            None => self.create(gpu, name, bytes, usage),
+        }
+    }
+
     /// Gives a buffer's memory back, once nothing binds it any more.
     pub fn remove(&mut self, name: &str) {
         self.by_name.remove(name);

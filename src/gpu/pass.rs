@@ -24,6 +24,18 @@ pub struct Kernel {
 #[derive(Clone, Default)]
 pub(super) struct Kernels(Arc<Mutex<HashMap<(String, String), Kernel>>>);
 
+#[cfg(all(test, feature = "surface"))]
+impl Gpu {
+    /// How many entry points the device has compiled.
+    pub(crate) fn compiled(&self) -> usize {
+        self.kernels
+            .0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .len()
+    }
+}
+
 impl Kernel {
     /// An entry point of `shaders/{path}.wgsl`. A device compiles each composed text once, for all who ask for it.
     ///

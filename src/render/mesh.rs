@@ -1,16 +1,19 @@
-//! A surface around the particles in pictures: made anew for each frame, and drawn without leaving the device.
+//! A surface around the particles in pictures, as a solid or as water's: made anew for each frame, and drawn without leaving the
+//! device.
 
 use glam::{DVec3, Vec3};
 
 use super::needs::Needs;
-use super::stages::{Maker, Placed, ShadowReader, TRIANGLES};
-use super::water::walls;
+use super::stages::{Maker, Placed, TRIANGLES, Textures};
+use super::style::Style;
+use super::water;
 use crate::error::{Error, Result};
+use crate::gpu::buffers::Usage;
 use crate::gpu::{Blend, Buffers, Gpu, Kernel, Pass, Variant};
 use crate::scene::Scene;
 use crate::scene::model::{Addressing, Wall};
 use crate::surface::layout::Surface;
-use crate::surface::{self, Lattice, MOST_NODES, Mesh, Searched, Shape, SurfaceMaker};
+use crate::surface::{self, Lattice, MOST_NODES, Searched, Shape, SurfaceMaker};
 
 /// Of a voxel, in spacings of particles.
 const WIDTH: f64 = 0.5;
@@ -21,13 +24,12 @@ pub struct MeshStages {
     variant: Variant,
     shape: Shape,
     lattice: Lattice,
-    color: Kernel,
-    shadows: Option<ShadowReader>,
-    /// The frame's own, which the draws bind.
-    mesh: Option<Mesh>,
+    /// None where it is water.
+    color: Option<Kernel>,
+    textures: Textures,
 }
 
-/// Draws of the mesh: into the picture, and into the shadow map.
+/// Draws of a solid mesh: into the picture, and into the shadow map.
 pub fn draws(maker: &Maker) -> Result<[Placed; 2]> {
     let solid = maker.draw("place_mesh", TRIANGLES, Some(Blend::Opaque))?;
     let cast = maker.draw("cast_mesh", TRIANGLES, None)?;
@@ -36,20 +38,23 @@ pub fn draws(maker: &Maker) -> Result<[Placed; 2]> {
 
 impl MeshStages {
     /// `variant` is the plan's.
-    pub fn new(gpu: &Gpu, scene: &Scene, variant: &Variant, maker: &Maker) -> Result<Self> {
-        let shape = shape(scene);
+    pub fn new(gpu: &Gpu, scene: &Scene, style: &Style, variant: &Variant, maker: &Maker) -> Result<Self> {
+        let shape = shape(scene, style);
         Ok(Self {
             maker: SurfaceMaker::new(gpu.clone()),
             variant: variant.clone(),
             lattice: lattice(scene, &shape)?,
             shape,
-            color: maker.kernel("color_mesh")?,
-            shadows: maker.shadow_reader(),
-            mesh: None,
+            color: match style.water {
+                true => None,
+                false => Some(maker.kernel("color_mesh")?),
+            },
+            textures: maker.textures(),
         })
     }
 
-    /// Makes the surface of particles 0 to `count`, and has the draws bind it. Gives the pass that colors its vertices.
+    /// Makes the surface of particles 0 to `count`, and has the draws bind it. Gives the pass that colors its vertices, where
+    /// they have colors.
     pub fn make(
         &mut self,
         gpu: &Gpu,
@@ -69,37 +74,36 @@ impl MeshStages {
             particles: count,
         };
         let mesh = self.maker.make(&searched, &self.shape, &self.lattice)?;
-        let mesh = self.mesh.insert(mesh);
         if mesh.triangles == 0 {
             return Ok(None);
         }
-        let bytes = 4 * u64::from(mesh.vertices);
-        mesh.buffers
-            .create(gpu, "mesh_color", bytes, Default::default())?;
-        let mut given = mesh.buffers.bindings();
-        given.extend(self.shadows.iter().flat_map(ShadowReader::given));
+        let made = self.maker.buffers();
+        if self.color.is_some() {
+            made.reserve(gpu, "mesh_color", 4 * u64::from(mesh.vertices), Usage::Storage)?;
+        }
+        let mut given = made.bindings();
+        given.extend(self.textures.given());
         for (draw, vertices, _) in draws.iter_mut() {
             draw.rebind(gpu, buffers, &given)?;
             *vertices = 3 * mesh.triangles;
         }
-        let color = self.color.pass_with(gpu, buffers, &given)?;
-        Ok(Some((color, mesh.vertices)))
+        let Some(color) = &self.color else {
+            return Ok(None);
+        };
+        Ok(Some((color.pass_with(gpu, buffers, &given)?, mesh.vertices)))
     }
 }
 
-fn shape(scene: &Scene) -> Shape {
+fn shape(scene: &Scene, style: &Style) -> Shape {
     let spacing = 2.0 * scene.radius();
-    let ends = walls(scene);
-    let side = |axis: usize, upper: usize| {
-        let is_closed = scene.domain.sides[axis][upper] != Wall::Open;
-        is_closed.then_some(f64::from(ends[upper][axis]))
-    };
     Shape {
         spacing,
         reach: surface::usual_reach(spacing).min(scene.search_radius()),
         width: WIDTH * spacing,
         addressing: Addressing::Bitmap,
-        sides: [0, 1, 2].map(|axis| [side(axis, 0), side(axis, 1)]),
+        kernel: scene.render.mesh.kernel,
+        drops: style.water.then(|| water::drops(scene)),
+        sides: scene.domain.ends().map(|ends| ends.map(|end| end.map(f64::from))),
     }
 }
 
@@ -115,7 +119,9 @@ fn lattice(scene: &Scene, shape: &Shape) -> Result<Lattice> {
             what: format!(
                 "a mesh needs {inside:.1e} voxels along the domain's longest side, and can have {most}"
             ),
-            help: "choose `splats`, `spheres` or `water` for render.look".into(),
+            help:
+                "choose `splats`, `spheres` or `water` for render.look, and `screen` for render.water.surface"
+                    .into(),
         });
     }
     let followed = scene.neighbors.quarantine_distance;
@@ -139,7 +145,7 @@ fn lattice(scene: &Scene, shape: &Shape) -> Result<Lattice> {
 }
 
 /// What draws bind until there is a mesh.
-pub fn add_resources(needs: &mut Needs) {
+pub fn add_resources(needs: &mut Needs, style: &Style) {
     needs.uniform("surface", size_of::<Surface>(), "how the surface is made");
     for (name, element, why) in [
         (
@@ -148,10 +154,12 @@ pub fn add_resources(needs: &mut Needs) {
             "the surface's vertices; each frame has its own, as many as it needs",
         ),
         ("mesh_normal", 16, "their normals"),
-        ("mesh_color", 4, "their colors"),
         ("mesh_triangle", 12, "triangles between them"),
     ] {
         needs.storage(name, 1, element, why);
+    }
+    if !style.water {
+        needs.storage("mesh_color", 1, 4, "colors of the vertices");
     }
 }
 

@@ -142,7 +142,7 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         needs.storage("color_map", 256, 4, "the color map, 256 entries");
     }
     if style.mesh {
-        mesh::add_resources(needs);
+        mesh::add_resources(needs, style);
     }
     if style.splats() {
         needs.storage("splat", capacity, 4, "color and visibility of each particle");
@@ -235,7 +235,7 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         "render/water/drops",
         "particles with few neighbors",
     );
-    if style.mesh {
+    if style.mesh && !style.water {
         mesh::add_draws(needs);
     }
     needs.draw(
@@ -271,7 +271,7 @@ fn scene_needs(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32; 2]) 
         "edges of the slices",
     );
     if style.water {
-        water::add_draws(needs);
+        water::add_draws(needs, style);
     }
     needs.draw(
         !style.water,

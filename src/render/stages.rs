@@ -46,18 +46,22 @@ pub const TRIANGLES: wgpu::PrimitiveTopology = wgpu::PrimitiveTopology::Triangle
 const SHADOW_MAP: &str = "shadow_map";
 const SHADOW_SAMPLER: &str = "shadow_sampler";
 
-/// The shadow map, and how it is read.
-pub struct ShadowReader {
-    map: wgpu::TextureView,
-    sampler: wgpu::Sampler,
+/// The picture's textures by name, and how shadows are read, for what is bound anew in each frame.
+#[derive(Clone)]
+pub struct Textures {
+    views: Vec<(String, wgpu::TextureView)>,
+    shadow_sampler: wgpu::Sampler,
 }
 
-impl ShadowReader {
-    pub fn given(&self) -> [Given<'_>; 2] {
-        [
-            (SHADOW_MAP, wgpu::BindingResource::TextureView(&self.map)),
-            (SHADOW_SAMPLER, wgpu::BindingResource::Sampler(&self.sampler)),
-        ]
+impl Textures {
+    pub fn given(&self) -> impl Iterator<Item = Given<'_>> {
+        let views = self.views.iter();
+        views
+            .map(|(name, view)| (name.as_str(), wgpu::BindingResource::TextureView(view)))
+            .chain([(
+                SHADOW_SAMPLER,
+                wgpu::BindingResource::Sampler(&self.shadow_sampler),
+            )])
     }
 }
 
@@ -67,8 +71,7 @@ pub struct Maker<'a> {
     variant: &'a Variant,
     buffers: &'a Buffers,
     needs: &'a Needs,
-    views: Vec<(&'a str, wgpu::TextureView)>,
-    shadow_sampler: wgpu::Sampler,
+    textures: Textures,
 }
 
 impl<'a> Maker<'a> {
@@ -91,7 +94,7 @@ impl<'a> Maker<'a> {
             };
             let what = || format!("texture `{}` of {} bytes", need.name, need.bytes);
             let made = gpu.make(what, |device| device.create_texture(&descriptor))?;
-            views.push((need.name.as_str(), made.create_view(&Default::default())));
+            views.push((need.name.clone(), made.create_view(&Default::default())));
         }
         let shadow_sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("shadow_sampler"),
@@ -105,14 +108,16 @@ impl<'a> Maker<'a> {
             variant,
             buffers,
             needs,
-            views,
-            shadow_sampler,
+            textures: Textures {
+                views,
+                shadow_sampler,
+            },
         })
     }
 
     fn find(&self, texture: &str) -> Option<wgpu::TextureView> {
-        let mut views = self.views.iter();
-        let found = views.find(|(name, _)| *name == texture)?;
+        let mut views = self.textures.views.iter();
+        let found = views.find(|(name, _)| name == texture)?;
         Some(found.1.clone())
     }
 
@@ -122,21 +127,12 @@ impl<'a> Maker<'a> {
     }
 
     fn given(&self) -> Vec<Given<'_>> {
-        let views = self.views.iter();
-        views
-            .map(|(name, view)| (*name, wgpu::BindingResource::TextureView(view)))
-            .chain([(
-                SHADOW_SAMPLER,
-                wgpu::BindingResource::Sampler(&self.shadow_sampler),
-            )])
-            .collect()
+        self.textures.given().collect()
     }
 
-    /// What reads shadows besides buffers, to be bound anew: none where there are none.
-    pub fn shadow_reader(&self) -> Option<ShadowReader> {
-        let map = self.find(SHADOW_MAP)?;
-        let sampler = self.shadow_sampler.clone();
-        Some(ShadowReader { map, sampler })
+    /// What draws read besides buffers, to be bound anew.
+    pub fn textures(&self) -> Textures {
+        self.textures.clone()
     }
 
     fn need(&self, label: &str) -> &DrawNeed {
@@ -217,15 +213,15 @@ impl Stages {
         };
         let (mut casts, mut draws) = (Vec::new(), Vec::new());
         let mesh = match parts.mesh {
-            true => {
-                // Both stand first, where each frame finds them.
-                let [solid, cast] = mesh::draws(&maker)?;
-                draws.push(solid);
-                casts.push(cast);
-                Some(Box::new(MeshStages::new(gpu, scene, plan, &maker)?))
-            }
+            true => Some(Box::new(MeshStages::new(gpu, scene, parts, plan, &maker)?)),
             false => None,
         };
+        if parts.mesh && !parts.water {
+            // Both stand first, where each frame finds them.
+            let [solid, cast] = mesh::draws(&maker)?;
+            draws.push(solid);
+            casts.push(cast);
+        }
         if parts.shadows && parts.splats() {
             casts.push((maker.draw("cast_splat", STRIP, None)?, 4, None));
         }
@@ -239,7 +235,7 @@ impl Stages {
             let solid = maker.draw("place_collider", TRIANGLES, opaque)?;
             draws.push((solid, collider_vertices, Some(1)));
         }
-        if !parts.mesh {
+        if parts.water || !parts.mesh {
             let splat = match parts.water {
                 true => "place_water_drop",
                 false => parts.splat_entries().0,
@@ -274,7 +270,7 @@ impl Stages {
             false => None,
         };
         let particles = match parts.water {
-            true => Particles::Water(Box::new(WaterStages::new(&maker)?)),
+            true => Particles::Water(Box::new(WaterStages::new(&maker, parts.mesh)?)),
             false => Particles::Drawn {
                 color: parts
                     .splats()
@@ -311,8 +307,14 @@ impl Stages {
         }
         let [_, _, width, height] = picture.rectangle;
         if let Some(mesh) = &mut self.mesh {
-            let mut draws = vec![&mut self.draws[0]];
-            draws.extend(self.shadows.as_mut().map(|(_, casts)| &mut casts[0]));
+            let mut draws: Vec<&mut Placed> = match &mut self.particles {
+                Particles::Water(stages) => stages.of_surface().into(),
+                Particles::Drawn { .. } => {
+                    let casts = self.shadows.as_mut();
+                    let cast = casts.map(|(_, casts)| &mut casts[0]);
+                    [&mut self.draws[0]].into_iter().chain(cast).collect()
+                }
+            };
             if let Some((color, vertices)) = mesh.make(gpu, buffers, picture.count, &mut draws)? {
                 dispatch(encoder, &color, vertices);
             }

@@ -10,7 +10,7 @@ use crate::gpu::Variant;
 use crate::neighbors::FROM_VOXELS;
 use crate::scene::column::Source;
 use crate::scene::floating;
-use crate::scene::model::{Addressing, Background, ImagePass, Look, Splat, View};
+use crate::scene::model::{Addressing, Background, ImagePass, Look, Splat, View, WaterSurface};
 use crate::scene::{Dimensions, Scene};
 
 /// Which parts a picture has. All are false where the view shows the pool alone.
@@ -21,7 +21,7 @@ pub struct Style {
     pub spheres: bool,
     /// The surface of water in place of spheres or discs.
     pub water: bool,
-    /// A surface around the particles in place of spheres or discs.
+    /// A mesh around the particles in place of spheres or discs; where there is water, its surface.
     pub mesh: bool,
     /// Nothing behind the scene, so that pictures have alpha.
     pub transparent: bool,
@@ -52,7 +52,12 @@ impl Style {
         let three_dimensional = scene.dimensions == Dimensions::Three;
         let spheres = render.splat == Splat::Sphere || render.look == Look::Spheres;
         let water = drawn && render.look == Look::Water;
-        let mesh = drawn && render.look == Look::Mesh;
+        let mesh = drawn
+            && match render.look {
+                Look::Mesh => true,
+                Look::Water => render.water.surface == WaterSurface::Mesh,
+                Look::Splats | Look::Spheres => false,
+            };
         let radius = scene.radius() * render.splat_scale;
         let layout = Layout::new(scene, view);
         let round_shadows = layout.scene.is_some_and(|place| {
@@ -102,6 +107,7 @@ impl Style {
             .flag("round_shadows", self.round_shadows)
             .flag("has_floor", self.floor)
             .flag("water", self.water)
+            .flag("water_mesh", self.water && self.mesh)
             .flag("transparent", self.transparent)
             .flag("solid_floor", self.floor && !self.transparent)
             .flag("has_obstacles", self.colliders)
@@ -113,7 +119,9 @@ impl Style {
             .role("column", column);
         if self.mesh {
             // Its vertices are no particles, and have no lists.
-            variant.role("candidates", FROM_VOXELS);
+            variant
+                .role("candidates", FROM_VOXELS)
+                .constant("COLUMN_WIDTH", 1);
         }
         variant
     }

@@ -1,14 +1,14 @@
-//! Water in pictures: screen-space fluid. The particles' spheres give a surface and a thickness as seen by the eye, and a
-//! thickness as seen by the light; the surface is smoothed and shaded. What it looks like, and what it needs.
+//! Water in pictures. The particles' spheres give a thickness as seen by the eye, and one as seen by the light. The surface is
+//! these spheres too, smoothed on screen, or a mesh (`mesh.rs`); it is shaded. What it looks like, and what it needs.
 
 use super::backdrop::linear;
 use super::light::SHADOW_TEXELS;
 use super::needs::Needs;
 use super::style::Style;
 use crate::gpu::BufferPlan;
-use crate::scene::model::Wall;
 use crate::scene::{Scene, color_maps};
 use crate::shared_struct;
+use crate::surface::Drops;
 
 shared_struct! {
     /// See `shaders/render/water/water.wgsl`.
@@ -50,6 +50,8 @@ const MANY: f64 = 0.58;
 const DEEP: f64 = 0.95;
 /// The length after which light has the water's color where the scene does not say, as a share of the domain's diagonal.
 const ABSORPTION_SHARE: f64 = 0.1;
+/// Stands for an end where there is none, metres.
+const FAR_AWAY: f32 = 1e9;
 /// Light that comes back from deep water, as a share of its color.
 const SCATTER: f32 = 0.35;
 
@@ -63,14 +65,15 @@ impl Water {
             .map(linear);
         let four = |[r, g, b]: [f32; 3]| [r, g, b, 0.0];
         let spacing = 2.0 * scene.radius();
-        let [low, high] = walls(scene);
+        let ends = scene.domain.ends();
+        let end = |side: usize, far: f32| ends.map(|of_axis| of_axis[side].unwrap_or(far));
         let full = scene.usual_neighbors(1.0);
         Self {
             absorption: four(color.map(|channel| -channel.max(1e-4).ln() / length as f32)),
             scatter: four(color.map(|channel| SCATTER * channel)),
             drop: four(color.map(|channel| 0.5 + 0.5 * channel)),
-            low: four(low),
-            high: four(high),
+            low: four(end(0, -FAR_AWAY)),
+            high: four(end(1, FAR_AWAY)),
             radius: (SURFACE_RADIUS * style.radius) as f32,
             drop_radius: (DROP_RADIUS * style.radius) as f32,
             reach: (THICKNESS_RADIUS * style.radius) as f32,
@@ -87,20 +90,12 @@ impl Water {
     }
 }
 
-/// Lower and upper end of what walls enclose, metres; 1e9 on sides that are open.
-pub fn walls(scene: &Scene) -> [[f32; 3]; 2] {
-    let domain = &scene.domain;
-    let end = |side: usize| {
-        let (place, far) = match side {
-            0 => (domain.min, -1e9),
-            _ => (domain.max, 1e9),
-        };
-        std::array::from_fn(|axis| match domain.sides[axis][side] {
-            Wall::Open => far,
-            _ => place[axis],
-        })
-    };
-    [end(0), end(1)]
+/// Which particles are drops, apart from the surface.
+pub fn drops(scene: &Scene) -> Drops {
+    Drops {
+        reach: scene.search_radius(),
+        fewest: FEW * scene.usual_neighbors(1.0),
+    }
 }
 
 /// Texels of the thickness seen by the light, along a side.
@@ -126,22 +121,53 @@ pub fn add_resources(needs: &mut Needs, scene: &Scene, style: &Style, size: [u32
         .push(BufferPlan::table("water", &[look], "what water looks like"));
     let why = "the water's surface, as distances from the eye";
     needs.storage("water_surface", count(samples), 4, why);
-    needs.storage("next_water_surface", count(samples), 4, "the same, smoothed");
+    match style.mesh {
+        true => needs.mark_texture("water_normal", samples, "normals of the water's surface"),
+        false => needs.storage("next_water_surface", count(samples), 4, "the same, smoothed"),
+    }
     needs.storage(
         "behind",
         count(size),
         8,
         "what lies behind the water, half floats",
     );
-    needs.depth_texture("water_depth", samples, "the water's surface as spheres");
+    needs.depth_texture("water_depth", samples, "the water's surface as it is drawn");
     let halves = size.map(|side| side.div_ceil(2));
     needs.thickness_texture("water_thickness", halves, "thickness of the water");
     needs.thickness_texture("water_shadow", [SHADOW_SIDE; 2], "the same as the light sees it");
 }
 
 /// Draws and passes between those of the scene and the finished picture.
-pub fn add_draws(needs: &mut Needs) {
+pub fn add_draws(needs: &mut Needs, style: &Style) {
     let splats = "render/water/splats";
+    let surface = match style.mesh {
+        true => (
+            "place_water_mesh",
+            Some("keep_water_normal"),
+            "render/water/mesh",
+            "the water's surface",
+        ),
+        false => (
+            "place_water_surface",
+            Some("cut_water_surface"),
+            splats,
+            "the water's surface",
+        ),
+    };
+    let thickness = match style.mesh {
+        true => (
+            "place_water_chord",
+            Some("add_water_chord"),
+            "render/water/mesh",
+            "the water's thickness",
+        ),
+        false => (
+            "place_water_thickness",
+            Some("add_water_thickness"),
+            splats,
+            "the water's thickness",
+        ),
+    };
     for (label, fragment, shader, why) in [
         (
             "place_water_shadow",
@@ -149,18 +175,8 @@ pub fn add_draws(needs: &mut Needs) {
             splats,
             "water that sunlight passes",
         ),
-        (
-            "place_water_surface",
-            Some("cut_water_surface"),
-            splats,
-            "the water's surface",
-        ),
-        (
-            "place_water_thickness",
-            Some("add_water_thickness"),
-            splats,
-            "the water's thickness",
-        ),
+        surface,
+        thickness,
         (
             "find_water_surface",
             None,
@@ -172,7 +188,7 @@ pub fn add_draws(needs: &mut Needs) {
     }
     for label in SMOOTHING_PASSES {
         needs.draw(
-            true,
+            !style.mesh,
             label,
             None,
             "render/water/smooth",

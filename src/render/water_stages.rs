@@ -1,7 +1,7 @@
 //! The passes that make a picture's water, behind those that draw the rest of the scene.
 
 use super::picture::Picture;
-use super::stages::{Maker, Placed, STRIP, Target, dispatch, draw_all};
+use super::stages::{Maker, Placed, STRIP, TRIANGLES, Target, dispatch, draw_all};
 use super::water::SMOOTHING_PASSES;
 use crate::error::Result;
 use crate::gpu::{Blend, Pass};
@@ -9,6 +9,8 @@ use crate::gpu::{Blend, Pass};
 pub struct WaterStages {
     shadow: (wgpu::TextureView, [Placed; 1]),
     surface: (wgpu::TextureView, [Placed; 1]),
+    /// Where the surface is a mesh.
+    normal: Option<wgpu::TextureView>,
     thickness: (wgpu::TextureView, [Placed; 1]),
     find_surface: Pass,
     smooth: Vec<Pass>,
@@ -17,12 +19,13 @@ pub struct WaterStages {
 }
 
 impl WaterStages {
-    pub fn new(maker: &Maker) -> Result<Self> {
+    pub fn new(maker: &Maker, is_mesh: bool) -> Result<Self> {
         let splats =
             |label: &str, blend| -> Result<[Placed; 1]> { Ok([(maker.draw(label, STRIP, blend)?, 4, None)]) };
         let added = Some(Blend::Add);
         let mut smooth = Vec::new();
-        for (index, entry) in SMOOTHING_PASSES.iter().enumerate() {
+        let passes = if is_mesh { &[][..] } else { &SMOOTHING_PASSES };
+        for (index, entry) in passes.iter().enumerate() {
             smooth.push(match index % 2 {
                 0 => maker.compute(entry)?,
                 _ => maker.flipped(entry)?,
@@ -30,16 +33,31 @@ impl WaterStages {
         }
         Ok(Self {
             shadow: (maker.view("water_shadow"), splats("place_water_shadow", added)?),
-            surface: (maker.view("water_depth"), splats("place_water_surface", None)?),
+            surface: (
+                maker.view("water_depth"),
+                match is_mesh {
+                    true => [(maker.mark("place_water_mesh", TRIANGLES)?, 0, Some(1))],
+                    false => splats("place_water_surface", None)?,
+                },
+            ),
+            normal: is_mesh.then(|| maker.view("water_normal")),
             thickness: (
                 maker.view("water_thickness"),
-                splats("place_water_thickness", added)?,
+                match is_mesh {
+                    true => [(maker.draw("place_water_chord", TRIANGLES, added)?, 0, Some(1))],
+                    false => splats("place_water_thickness", added)?,
+                },
             ),
             find_surface: maker.compute("find_water_surface")?,
             smooth,
             paint_behind: maker.compute("paint_behind")?,
             resolve: maker.compute("resolve_water")?,
         })
+    }
+
+    /// What draws the surface, and what it encloses.
+    pub fn of_surface(&mut self) -> [&mut Placed; 2] {
+        [&mut self.surface.1[0], &mut self.thickness.1[0]]
     }
 
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, picture: &Picture) {
@@ -53,13 +71,11 @@ impl WaterStages {
             draw_all(encoder, label, Target::Color(view), draws, picture.count);
         }
         let (view, draws) = &self.surface;
-        draw_all(
-            encoder,
-            "draw_water_surface",
-            Target::Depth(view),
-            draws,
-            picture.count,
-        );
+        let target = match &self.normal {
+            Some(normal) => Target::Both(normal, view),
+            None => Target::Depth(view),
+        };
+        draw_all(encoder, "draw_water_surface", target, draws, picture.count);
         dispatch(encoder, &self.find_surface, samples);
         for pass in &self.smooth {
             dispatch(encoder, pass, samples);

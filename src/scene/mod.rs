@@ -307,6 +307,16 @@ impl Domain {
         Vec3::from([0, 1, 2].map(of))
     }
 
+    /// Where surfaces of fluids end along each axis: at all sides but open ones, metres. At a periodic side they are cut as at a
+    /// wall, since what goes on there comes in at the other one.
+    pub fn ends(&self) -> [[Option<f32>; 2]; 3] {
+        let end = |axis: usize, side: usize| {
+            let is_closed = self.sides[axis][side] != Wall::Open;
+            is_closed.then_some([self.min, self.max][side][axis])
+        };
+        [0, 1, 2].map(|axis| [end(axis, 0), end(axis, 1)])
+    }
+
     /// Whether particles may leave it.
     pub fn is_open(&self) -> bool {
         self.sides.iter().flatten().any(|&side| side == Wall::Open)

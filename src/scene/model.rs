@@ -26,8 +26,8 @@ pub use fluid::{
 pub use grains::{ContactLaw, Dashpot, GrainMaterial, Grains, MaterialPair, RollingResistance};
 pub use neighbors::{Addressing, Cell, Neighbors, SlicingAxis, Storage};
 pub use render::{
-    Background, Camera, CameraPoint, Color, Easing, ImagePass, Look, PassFiles, Projection, Render, Show,
-    Splat, View, Water,
+    Background, Camera, CameraPoint, Color, Easing, ImagePass, Look, MeshStyle, PassFiles, Projection,
+    Render, Show, Splat, SurfaceKernel, View, Water, WaterSurface,
 };
 pub use rigid::{Copies, Rigid};
 pub use sensors::{Sensor, SensorField, Side};

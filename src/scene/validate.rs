@@ -462,11 +462,11 @@ fn passes(render: &Render, has_floating_bodies: bool, report: &mut Report) {
         ("render.shutter", render.shutter > 0.0),
         ("render.camera.aperture", render.camera.aperture > 0.0),
     ] {
-        if is_wanted && !render.look.follows_particles() {
+        if is_wanted && !render.follows_particles() {
             report.problem(
                 key,
-                "this look has neither extra images nor blur",
-                "choose `splats`, `spheres` or `water`",
+                "a surface that is a mesh has neither extra images nor blur",
+                "choose `splats`, `spheres` or `water` for render.look, and for water `screen` for render.water.surface",
             );
         }
     }

@@ -24,6 +24,13 @@ shared_struct! {
         pub shell: u32,
         pub voxels: u32,
         pub vertices: u32,
+        /// Of the particles.
+        pub spacing: f32,
+        /// How far away a neighbor may be.
+        pub neighbor_reach: f32,
+        /// Particles with fewer neighbors have no part in the surface.
+        pub fewest: f32,
+        pub reserved: u32,
     }
 }
 

@@ -5,12 +5,12 @@ use std::time::Instant;
 use super::layout::{Surface, SurfaceTotals};
 use super::{DEEP, FARTHEST, Lattice, Shape, cubes, radius, voxels};
 use crate::error::{Error, Result};
-use crate::gpu::binding::Given;
 use crate::gpu::buffers::Usage;
 use crate::gpu::compose::{SCAN_ITEMS, SCAN_THREADS};
-use crate::gpu::{Buffers, Gpu, Items, Kernel, Pass, Variant, readback};
+use crate::gpu::{Buffers, Contents, Gpu, Items, Kernel, Pass, Variant, readback};
 use crate::neighbors::layout::SearchState;
 use crate::neighbors::{FROM_VOXELS, Grid, Room};
+use crate::scene::model::SurfaceKernel;
 
 /// Stands for a side where there is none.
 const FAR_AWAY: f32 = 1e18;
@@ -28,10 +28,10 @@ pub struct Searched<'a> {
     pub particles: u32,
 }
 
-/// A mesh on the device: `mesh_position` and `mesh_normal`, four f32 per vertex, in the search's coordinates, and
-/// `mesh_triangle`, three u32 per triangle. It is closed, and its triangles face outward.
+/// A mesh on the device, in the maker's buffers `mesh_position` and `mesh_normal`, four f32 per vertex, in the search's
+/// coordinates, and `mesh_triangle`, three u32 per triangle. It is closed, and its triangles face outward.
+#[derive(Debug, Clone, Copy)]
 pub struct Mesh {
-    pub buffers: Buffers,
     pub vertices: u32,
     pub triangles: u32,
     pub figures: Figures,
@@ -54,9 +54,15 @@ pub struct Figures {
     pub seconds: f64,
 }
 
-/// Makes surfaces, one after the other, with passes that are compiled once.
+/// Makes surfaces, one after the other. What it has compiled and buffers that are large enough serve the next one too.
 pub struct SurfaceMaker {
     gpu: Gpu,
+    /// What all passes know by name besides the buffers of the search and of the grid; the mesh among them.
+    own: Buffers,
+    /// The grid that the surface is stored in.
+    grid: Buffers,
+    /// Of the grid's tables.
+    room: Room,
 }
 
 /// What one surface is made of on the way.
@@ -66,10 +72,6 @@ struct Work<'a> {
     search_variant: Variant,
     /// Of those that look at voxels.
     voxel_variant: Variant,
-    /// What all passes know by name besides the buffers of the search and of the grid.
-    own: Buffers,
-    /// The grid that the surface is stored in.
-    grid: Buffers,
     told: Surface,
 }
 
@@ -78,7 +80,17 @@ type Planned = (Pass, u32);
 
 impl SurfaceMaker {
     pub fn new(gpu: Gpu) -> Self {
-        Self { gpu }
+        Self {
+            gpu,
+            own: Buffers::default(),
+            grid: Buffers::default(),
+            room: Room::default(),
+        }
+    }
+
+    /// The latest mesh among them; columns of its own may be added.
+    pub fn buffers(&mut self) -> &mut Buffers {
+        &mut self.own
     }
 
     /// Makes the mesh of the particles; it is empty where there are none.
@@ -110,8 +122,9 @@ impl SurfaceMaker {
         deep: f64,
     ) -> Result<Option<Mesh>> {
         let mark_side = mark_side(shape);
-        let mut work = Work::new(&self.gpu, searched, shape, lattice, deep)?;
-        self.find_shell(&mut work)?;
+        let mut work = Work::new(searched, shape, lattice, deep);
+        self.begin(&work)?;
+        self.find_shell(&mut work, shape)?;
         let marks = u64::from(work.told.shell) * u64::from(mark_side).pow(3);
         if marks > u64::from(u32::MAX) {
             return Err(too_large(format!(
@@ -135,35 +148,64 @@ impl SurfaceMaker {
         self.write_mesh(work, totals, figures).map(Some)
     }
 
-    /// Finds the particles near the surface.
-    fn find_shell(&mut self, work: &mut Work<'_>) -> Result<()> {
-        let particles = work.searched.particles;
-        work.storage(&self.gpu, "shell_flag", particles, 4)?;
-        work.storage(&self.gpu, "shell_position", particles, 16)?;
-        work.storage(&self.gpu, "block_sum", blocks(particles), 4)?;
-        let mut passes = vec![self.particle_pass(work, "find_shell", particles)?];
-        for (entry, threads) in scan(particles) {
-            let kernel = Kernel::load(&self.gpu, "surface/list_shell", &work.search_variant, entry)?;
-            let pass = kernel.pass_with(&self.gpu, work.searched.buffers, &work.given())?;
-            passes.push((pass, threads));
+    /// Writes what all passes read.
+    fn begin(&mut self, work: &Work<'_>) -> Result<()> {
+        let gpu = &self.gpu;
+        let table = cubes::table();
+        for (name, bytes, usage) in [
+            ("surface", size_of::<Surface>(), Usage::Uniform),
+            ("surface_totals", size_of::<SurfaceTotals>(), Usage::Storage),
+            ("cube_table", size_of_val(&table[..]), Usage::Storage),
+        ] {
+            self.own.reserve(gpu, name, bytes as u64, usage)?;
         }
-        self.run(&passes)?;
-        work.told.shell = self.totals(work)?.shell;
-        work.tell(&self.gpu)
+        self.own.write(gpu, "cube_table", 0, &table)?;
+        self.own
+            .write(gpu, "surface_totals", 0, &[SurfaceTotals::default()])?;
+        self.tell(work)
+    }
+
+    /// Finds the kernels of the particles, and those near the surface.
+    fn find_shell(&mut self, work: &mut Work<'_>, shape: &Shape) -> Result<()> {
+        let particles = work.searched.particles;
+        let vectors = kernel_vectors(shape.kernel);
+        self.storage("surface_kernel", particles, 16 * u64::from(vectors))?;
+        self.storage("shell_flag", particles, 4)?;
+        self.storage("shell_position", particles, 16)?;
+        self.storage("block_sum", blocks(particles), 4)?;
+        let mut passes = vec![self.particle_pass(work, ["surface/find_shell", "find_shell"], particles)?];
+        for (entry, threads) in scan(particles) {
+            passes.push(self.particle_pass(work, ["surface/list_shell", entry], threads)?);
+        }
+        self.run(&[], &passes)?;
+        work.told.shell = self.totals()?.shell;
+        self.tell(work)
     }
 
     /// Lays out the grid around the particles near the surface. Gives the bytes of its tables.
     fn lay_out(&mut self, work: &mut Work<'_>, shape: &Shape, lattice: &Lattice, marks: u32) -> Result<u64> {
-        let mut grid = voxels::grid(lattice, shape);
+        let mut grid = voxels::grid(lattice, shape, self.room);
         loop {
             let layout = voxels::layout(shape, grid, &mut work.voxel_variant);
-            work.grid = Buffers::default();
+            let mut cleared = Vec::new();
             for buffer in &layout.buffers {
-                work.grid.make(&self.gpu, buffer)?;
+                if buffer.bytes > self.gpu.limits.largest() {
+                    return Err(too_large(format!(
+                        "the buffer `{}` of {} bytes",
+                        buffer.name, buffer.bytes
+                    )));
+                }
+                self.grid
+                    .reserve(&self.gpu, &buffer.name, buffer.bytes, buffer.usage)?;
+                match buffer.contents {
+                    Contents::Zeros if buffer.name == "dispatch" => {}
+                    Contents::Zeros => cleared.push(self.grid.get(&buffer.name, "(host)")?.clone()),
+                    _ => self.grid.fill(&self.gpu, buffer)?,
+                }
             }
             let groups = [0, 0, 0, self.gpu.limits.groups];
             let dispatch: Vec<u32> = groups.repeat(crate::gpu::DISPATCHES.len());
-            work.grid.write(&self.gpu, "dispatch", 0, &dispatch)?;
+            self.grid.write(&self.gpu, "dispatch", 0, &dispatch)?;
             let mut passes = Vec::new();
             for planned in &layout.passes {
                 let threads = match planned.items {
@@ -173,12 +215,13 @@ impl SurfaceMaker {
                 let shader = [planned.shader.as_str(), planned.entry.as_str()];
                 passes.push(self.voxel_pass(work, shader, threads)?);
             }
-            self.run(&passes)?;
-            let state = work.grid.get("search_state", "(host)")?;
+            self.run(&cleared, &passes)?;
+            let state = self.grid.get("search_state", "(host)")?;
             let state = readback::read::<SearchState>(&self.gpu, state, 1)?[0];
             if state.halted == 0 {
+                self.room = grid.room();
                 work.told.voxels = state.voxels;
-                work.tell(&self.gpu)?;
+                self.tell(work)?;
                 return Ok(layout.buffers.iter().map(|buffer| buffer.bytes).sum());
             }
             grid = grown(grid, &state);
@@ -188,14 +231,16 @@ impl SurfaceMaker {
     /// Finds the implicit function at the nodes, and what the surface passes through.
     fn find_cells(&mut self, work: &mut Work<'_>, marks: u32) -> Result<SurfaceTotals> {
         let voxels = work.told.voxels;
-        work.storage(&self.gpu, "surface_node", voxels, 8)?;
+        self.storage("surface_node", voxels, 8)?;
         for name in ["surface_value", "surface_cell", "vertex_start", "triangle_start"] {
-            work.storage(&self.gpu, name, voxels, 4)?;
+            self.storage(name, voxels, 4)?;
         }
-        work.storage(&self.gpu, "block_sum", blocks(voxels), 4)?;
+        self.storage("block_sum", blocks(voxels), 4)?;
+        // A node that nobody marks is zero.
+        let nodes = self.own.get("surface_node", "(host)")?.clone();
         let mut passes = vec![
             self.voxel_pass(work, ["surface/list_nodes", "list_nodes"], marks)?,
-            self.particle_pass(work, "evaluate_nodes", voxels)?,
+            self.particle_pass(work, ["surface/evaluate_nodes", "evaluate_nodes"], voxels)?,
             self.voxel_pass(work, ["surface/find_cells", "find_cells"], voxels)?,
         ];
         for shader in ["surface/number_vertices", "surface/number_triangles"] {
@@ -203,8 +248,8 @@ impl SurfaceMaker {
                 passes.push(self.voxel_pass(work, [shader, entry], threads)?);
             }
         }
-        self.run(&passes)?;
-        self.totals(work)
+        self.run(&[nodes], &passes)?;
+        self.totals()
     }
 
     /// Writes the mesh.
@@ -212,90 +257,71 @@ impl SurfaceMaker {
         let SurfaceTotals {
             vertices, triangles, ..
         } = totals;
-        work.storage(&self.gpu, "mesh_position", vertices, 16)?;
-        work.storage(&self.gpu, "mesh_normal", vertices, 16)?;
-        work.storage(&self.gpu, "mesh_triangle", triangles, 12)?;
+        self.storage("mesh_position", vertices, 16)?;
+        self.storage("mesh_normal", vertices, 16)?;
+        self.storage("mesh_triangle", triangles, 12)?;
         work.told.vertices = vertices;
-        work.tell(&self.gpu)?;
+        self.tell(&work)?;
         let voxels = work.told.voxels;
         let passes = [
             self.voxel_pass(&work, ["surface/place_vertices", "place_vertices"], voxels)?,
             self.voxel_pass(&work, ["surface/write_triangles", "write_triangles"], voxels)?,
-            self.particle_pass(&work, "find_normals", vertices)?,
+            self.particle_pass(&work, ["surface/find_normals", "find_normals"], vertices)?,
         ];
-        self.run(&passes)?;
-        let mut buffers = work.own;
-        for name in [
-            "shell_flag",
-            "shell_position",
-            "surface_node",
-            "surface_value",
-            "surface_cell",
-            "vertex_start",
-            "triangle_start",
-            "block_sum",
-        ] {
-            buffers.remove(name);
-        }
+        self.run(&[], &passes)?;
         Ok(Mesh {
-            buffers,
             vertices,
             triangles,
             figures,
         })
     }
 
-    /// Values at the vertices: means of those that the particles have, `width` numbers per particle in order of id.
+    /// Values at the vertices of the latest mesh: means of those that the particles have, `width` numbers per particle in order
+    /// of id.
+    ///
+    /// # Errors
+    ///
+    /// Where the device has no room for them.
     pub fn blend(
         &mut self,
         searched: &Searched<'_>,
-        mesh: &mut Mesh,
+        mesh: &Mesh,
         values: &[f32],
         width: u32,
     ) -> Result<Vec<f32>> {
         let count = mesh.vertices * width;
-        let gpu = &self.gpu;
-        mesh.buffers.create(
-            gpu,
-            "column_value",
-            4 * values.len().max(1) as u64,
-            Usage::Storage,
-        )?;
-        mesh.buffers.write(gpu, "column_value", 0, values)?;
-        mesh.buffers
-            .create(gpu, "vertex_value", 4 * u64::from(count.max(1)), Usage::Storage)?;
+        self.storage("column_value", values.len() as u32, 4)?;
+        self.own.write(&self.gpu, "column_value", 0, values)?;
+        self.storage("vertex_value", count, 4)?;
         let mut variant = particle_variant(searched.variant);
         variant.constant("COLUMN_WIDTH", width);
-        let given = mesh.buffers.bindings();
-        let kernel = Kernel::load(gpu, "surface/blend_column", &variant, "blend_column")?;
-        let pass = kernel.pass_with(gpu, searched.buffers, &given)?;
-        self.run(&[(pass, mesh.vertices)])?;
-        let found = mesh.buffers.get("vertex_value", "(host)")?;
+        let kernel = Kernel::load(&self.gpu, "surface/blend_column", &variant, "blend_column")?;
+        let pass = kernel.pass_with(&self.gpu, searched.buffers, &self.own.bindings())?;
+        self.run(&[], &[(pass, mesh.vertices)])?;
+        let found = self.own.get("vertex_value", "(host)")?;
         readback::read(&self.gpu, found, count as usize)
     }
 
-    /// A pass over `surface/ENTRY`, which looks at particles.
-    fn particle_pass(&self, work: &Work<'_>, entry: &str, threads: u32) -> Result<Planned> {
-        let kernel = Kernel::load(
-            &self.gpu,
-            &format!("surface/{entry}"),
-            &work.search_variant,
-            entry,
-        )?;
-        let pass = kernel.pass_with(&self.gpu, work.searched.buffers, &work.given())?;
+    /// A pass that looks at particles.
+    fn particle_pass(&mut self, work: &Work<'_>, shader: [&str; 2], threads: u32) -> Result<Planned> {
+        let kernel = Kernel::load(&self.gpu, shader[0], &work.search_variant, shader[1])?;
+        let pass = kernel.pass_with(&self.gpu, work.searched.buffers, &self.own.bindings())?;
         Ok((pass, threads))
     }
 
     /// A pass that looks at voxels of the surface.
-    fn voxel_pass(&self, work: &Work<'_>, shader: [&str; 2], threads: u32) -> Result<Planned> {
-        let [file, entry] = shader;
-        let kernel = Kernel::load(&self.gpu, file, &work.voxel_variant, entry)?;
-        let pass = kernel.pass_with(&self.gpu, &work.grid, &work.given())?;
+    fn voxel_pass(&mut self, work: &Work<'_>, shader: [&str; 2], threads: u32) -> Result<Planned> {
+        let kernel = Kernel::load(&self.gpu, shader[0], &work.voxel_variant, shader[1])?;
+        let pass = kernel.pass_with(&self.gpu, &self.grid, &self.own.bindings())?;
         Ok((pass, threads))
     }
 
-    fn run(&self, passes: &[Planned]) -> Result<()> {
+    /// Clears buffers, then runs passes.
+    fn run(&self, cleared: &[wgpu::Buffer], passes: &[Planned]) -> Result<()> {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        for buffer in cleared {
+            encoder.clear_buffer(buffer, 0, None);
+        }
         let mut compute = encoder.begin_compute_pass(&Default::default());
         for (pass, threads) in passes.iter().filter(|(_, threads)| *threads > 0) {
             pass.encode(&mut compute, *threads);
@@ -305,43 +331,38 @@ impl SurfaceMaker {
         Ok(())
     }
 
-    fn totals(&self, work: &Work<'_>) -> Result<SurfaceTotals> {
-        let totals = work.own.get("surface_totals", "(host)")?;
+    fn totals(&self) -> Result<SurfaceTotals> {
+        let totals = self.own.get("surface_totals", "(host)")?;
         Ok(readback::read(&self.gpu, totals, 1)?[0])
+    }
+
+    /// Writes what passes are told.
+    fn tell(&self, work: &Work<'_>) -> Result<()> {
+        self.own.write(&self.gpu, "surface", 0, &[work.told])
+    }
+
+    /// Has room for so many elements, one at least, in a buffer that all passes know.
+    fn storage(&mut self, name: &str, count: u32, element: u64) -> Result<()> {
+        let bytes = element * u64::from(count.max(1));
+        if bytes > self.gpu.limits.largest() {
+            return Err(too_large(format!("the buffer `{name}` of {bytes} bytes")));
+        }
+        self.own.reserve(&self.gpu, name, bytes, Usage::Storage)
     }
 }
 
 impl<'a> Work<'a> {
-    fn new(
-        gpu: &Gpu,
-        searched: &'a Searched<'a>,
-        shape: &Shape,
-        lattice: &Lattice,
-        deep: f64,
-    ) -> Result<Self> {
+    fn new(searched: &'a Searched<'a>, shape: &Shape, lattice: &Lattice, deep: f64) -> Self {
         let spacings = |factor: f64| (factor * shape.spacing) as f32;
         let sides = |upper: usize, none: f32| {
             let along = |axis: usize| shape.sides[axis][upper].map_or(none, |side| side as f32);
             [along(0), along(1), along(2), 0.0]
         };
-        let table = cubes::table();
-        let mut own = Buffers::default();
-        own.create(gpu, "surface", size_of::<Surface>() as u64, Usage::Uniform)?;
-        own.create(
-            gpu,
-            "surface_totals",
-            size_of::<SurfaceTotals>() as u64,
-            Usage::Storage,
-        )?;
-        own.create(gpu, "cube_table", 4 * table.len() as u64, Usage::Storage)?;
-        own.write(gpu, "cube_table", 0, &table)?;
         let [search_variant, voxel_variant] = variants(searched.variant, shape);
-        let work = Self {
+        Self {
             search_variant,
             voxel_variant,
             searched,
-            own,
-            grid: Buffers::default(),
             told: Surface {
                 lower: lattice.lower.extend(0.0).into(),
                 low: sides(0, -FAR_AWAY),
@@ -351,31 +372,20 @@ impl<'a> Work<'a> {
                 radius: radius(shape.spacing, shape.reach) as f32,
                 farthest: spacings(FARTHEST),
                 deep: spacings(deep),
-                shell: 0,
-                voxels: 0,
-                vertices: 0,
+                spacing: shape.spacing as f32,
+                neighbor_reach: shape.drops.map_or(0.0, |drops| drops.reach as f32),
+                fewest: shape.drops.map_or(0.0, |drops| drops.fewest as f32),
+                ..Default::default()
             },
-        };
-        work.tell(gpu)?;
-        Ok(work)
-    }
-
-    /// Writes what passes are told.
-    fn tell(&self, gpu: &Gpu) -> Result<()> {
-        self.own.write(gpu, "surface", 0, &[self.told])
-    }
-
-    fn given(&self) -> Vec<Given<'_>> {
-        self.own.bindings()
-    }
-
-    /// Creates a buffer that all passes know, with room for one element at least.
-    fn storage(&mut self, gpu: &Gpu, name: &str, count: u32, element: u64) -> Result<()> {
-        let bytes = element * u64::from(count.max(1));
-        if bytes > gpu.limits.largest() {
-            return Err(too_large(format!("the buffer `{name}` of {bytes} bytes")));
         }
-        self.own.create(gpu, name, bytes, Usage::Storage)
+    }
+}
+
+/// Vectors that each particle has in `surface_kernel`.
+fn kernel_vectors(kernel: SurfaceKernel) -> u32 {
+    match kernel {
+        SurfaceKernel::Isotropic => 1,
+        SurfaceKernel::Anisotropic => 2,
     }
 }
 
@@ -391,7 +401,16 @@ pub fn variants(search: &Variant, shape: &Shape) -> [Variant; 2] {
     let mut voxels = Variant::default();
     voxels.constant("CUBE_ROW", cubes::ROW as u32);
     voxels::layout(shape, Grid::default(), &mut voxels);
-    [particle_variant(search), voxels]
+    let folder = match shape.kernel {
+        SurfaceKernel::Isotropic => "surface/isotropic",
+        SurfaceKernel::Anisotropic => "surface/anisotropic",
+    };
+    let mut particles = particle_variant(search);
+    particles
+        .role("implicit", format!("{folder}/field"))
+        .role("fit_kernel", format!("{folder}/fit"))
+        .constant("KERNEL_VECTORS", kernel_vectors(shape.kernel));
+    [particles, voxels]
 }
 
 /// Nodes along a side of the box around a particle in which it may mark some.

@@ -11,7 +11,7 @@ mod voxels;
 
 use glam::Vec3;
 
-use crate::scene::model::Addressing;
+use crate::scene::model::{Addressing, SurfaceKernel};
 
 pub use maker::{Figures, Mesh, Searched, SurfaceMaker, variants};
 
@@ -47,8 +47,20 @@ pub struct Shape {
     /// Width of a voxel, metres.
     pub width: f64,
     pub addressing: Addressing,
+    pub kernel: SurfaceKernel,
+    /// Particles that have no part in the surface; none is left out where there are none.
+    pub drops: Option<Drops>,
     /// Where the domain's sides are, in the search's coordinates, metres; none where particles leave it.
     pub sides: [[Option<f64>; 2]; 3],
+}
+
+/// Particles with so few neighbors that they are drops, apart from the surface.
+#[derive(Debug, Clone, Copy)]
+pub struct Drops {
+    /// How far away a neighbor may be, metres.
+    pub reach: f64,
+    /// One with fewer is a drop.
+    pub fewest: f64,
 }
 
 /// The box of voxels around a surface.

@@ -9,10 +9,10 @@ use crate::scene::model::Axis;
 /// Entries of tables to begin with.
 const FIRST_ROOM: u32 = 1 << 16;
 
-/// The grid of a surface's voxels, whose slices lie across y.
-pub fn grid(lattice: &Lattice, shape: &Shape) -> Grid {
+/// The grid of a surface's voxels, whose slices lie across y, with the room that one before it had.
+pub fn grid(lattice: &Lattice, shape: &Shape, before: Room) -> Grid {
     let [x, y, z] = lattice.size.map(|n| n as i32);
-    let most = |entries: u64| entries.min(u64::from(FIRST_ROOM)) as u32;
+    let most = |entries: u64, before: u32| entries.min(before.max(FIRST_ROOM).into()) as u32;
     let rows = y as u64 * z as u64;
     Grid {
         lower: lattice.lower.extend(0.0).into(),
@@ -26,8 +26,8 @@ pub fn grid(lattice: &Lattice, shape: &Shape) -> Grid {
     .with_room(Room {
         // Voxels are counted before there is memory for them.
         voxels: u32::MAX,
-        rows: most(rows),
-        words: most(rows * (x as u64).div_ceil(32)),
+        rows: most(rows, before.rows),
+        words: most(rows * (x as u64).div_ceil(32), before.words),
         ..Room::default()
     })
 }

@@ -43,6 +43,7 @@ fn variants() -> Vec<Variant> {
                 .flag("round_shadows", solid)
                 .flag("has_floor", solid)
                 .flag("water", water)
+                .flag("water_mesh", transparent)
                 .flag("transparent", transparent)
                 .flag("solid_floor", solid && !transparent)
                 .flag("has_obstacles", solid)

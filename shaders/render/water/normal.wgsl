@@ -1,7 +1,12 @@
-// Points and normals of the smoothed surface.
+// Points and normals of the surface.
 
 #import render/picture
 #import render/water/water
+#if water_mesh
+#import render/water/packed_normal
+
+var water_normal: texture_2d<u32>;
+#end
 
 var<storage, read> water_surface: array<f32>;
 
@@ -26,6 +31,13 @@ fn point_at(place: vec2i, distance: f32) -> vec3f {
     return picture.eye.xyz + picture.forward.xyz * distance + sideways * scale;
 }
 
+#if water_mesh
+// The mesh's unit normal, turned to the eye's side at rims.
+fn surface_normal(place: vec2i, own: f32, toward_eye: vec3f) -> vec3f {
+    let normal = unpack_normal(textureLoad(water_normal, place, 0).r);
+    return normalize(normal + (1e-3 - min(dot(normal, toward_eye), 0.0)) * toward_eye);
+}
+#else
 // How the surface goes on along a direction: on both sides where it does, otherwise on the side where its distance changes
 // less, so that outlines stay sharp.
 fn tangent(place: vec2i, own: f32, direction: vec2i) -> vec3f {
@@ -53,3 +65,4 @@ fn surface_normal(place: vec2i, own: f32, toward_eye: vec3f) -> vec3f {
     let unit = normal * inverseSqrt(length2);
     return select(-unit, unit, dot(unit, toward_eye) > 0.0);
 }
+#end

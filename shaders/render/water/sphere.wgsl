@@ -6,6 +6,7 @@
 #import render/splat_quad
 #import <column>
 #import render/water/water
+#import render/random_share
 
 struct Corner {
     @builtin(position) clip: vec4f,
@@ -18,6 +19,11 @@ fn is_drop(i: u32) -> bool {
     return column(i) < water.few;
 }
 
+// Radius of a drop: no two are alike.
+fn drop_radius(i: u32) -> f32 {
+    return water.drop_radius * mix(1.5, 0.6, random_share(id[i]));
+}
+
 // 0 for a particle that is nearly a drop, 1 inside the water.
 fn crowd(i: u32) -> f32 {
     return smoothstep(water.few, water.many, column(i));
@@ -25,7 +31,7 @@ fn crowd(i: u32) -> f32 {
 
 // Of a particle's sphere in the surface: smaller where it has few neighbors, and that of a drop where it is one.
 fn surface_radius(i: u32) -> f32 {
-    return mix(water.drop_radius, water.radius, crowd(i));
+    return mix(drop_radius(i), water.radius, crowd(i));
 }
 
 // Whether others surround a particle on all sides: its sphere is behind theirs, wherever it is seen from.

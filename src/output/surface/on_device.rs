@@ -1,6 +1,6 @@
 //! Meshes made on the device, brought to the host.
 
-use std::sync::Mutex;
+use std::sync::{Mutex, MutexGuard};
 
 use glam::{DVec3, Vec3};
 
@@ -8,9 +8,9 @@ use super::reconstruct::Cloud;
 use super::walls::Walls;
 use super::{SurfaceMesh, VertexColumn};
 use crate::error::{Error, Result};
-use crate::gpu::{AdapterChoice, Gpu, readback};
+use crate::gpu::{AdapterChoice, Buffers, Gpu, readback};
 use crate::plan::{Plan, Wanted};
-use crate::scene::model::Addressing;
+use crate::scene::model::{Addressing, SurfaceKernel};
 use crate::scene::{Dimensions, Neighbors, Scene};
 use crate::simulation::Simulation;
 use crate::surface::{self, Figures, Lattice, MOST_NODES, Mesh, Searched, Shape, SurfaceMaker};
@@ -19,30 +19,54 @@ use crate::surface::{self, Figures, Lattice, MOST_NODES, Mesh, Searched, Shape, 
 pub struct OnDevice {
     gpu: Gpu,
     addressing: Addressing,
-    maker: Mutex<(SurfaceMaker, Figures)>,
+    kernel: SurfaceKernel,
+    workshop: Mutex<Workshop>,
+}
+
+/// What one mesh after the other is made with.
+struct Workshop {
+    maker: SurfaceMaker,
+    /// Sums over the meshes so far.
+    figures: Figures,
 }
 
 impl OnDevice {
-    /// Opens the device. Surfaces are stored by `addressing`, one of [`surface::ADDRESSINGS`].
+    /// Opens the device. Surfaces are stored by `addressing`, one of [`surface::ADDRESSINGS`], and made by `kernel`.
     ///
     /// # Errors
     ///
     /// Where there is no such adapter.
-    pub fn open(choice: &AdapterChoice, addressing: Addressing) -> Result<Self> {
-        let gpu = Gpu::open(choice, false)?;
-        Ok(Self {
-            maker: Mutex::new((SurfaceMaker::new(gpu.clone()), Figures::default())),
+    pub fn open(choice: &AdapterChoice, addressing: Addressing, kernel: SurfaceKernel) -> Result<Self> {
+        Ok(Self::with(Gpu::open(choice, false)?, addressing, kernel))
+    }
+
+    pub(super) fn with(gpu: Gpu, addressing: Addressing, kernel: SurfaceKernel) -> Self {
+        Self {
+            workshop: Mutex::new(Workshop {
+                maker: SurfaceMaker::new(gpu.clone()),
+                figures: Figures::default(),
+            }),
             gpu,
             addressing,
-        })
+            kernel,
+        }
+    }
+
+    /// Passes that have been compiled.
+    #[cfg(test)]
+    pub(super) fn compiled(&self) -> usize {
+        self.gpu.compiled()
     }
 
     /// Sums of what the meshes so far have cost.
     pub fn figures(&self) -> Figures {
-        self.maker
+        self.workshop().figures
+    }
+
+    fn workshop(&self) -> MutexGuard<'_, Workshop> {
+        self.workshop
             .lock()
             .unwrap_or_else(std::sync::PoisonError::into_inner)
-            .1
     }
 
     /// Makes a mesh of a frame; `None` where there is no surface.
@@ -54,11 +78,8 @@ impl OnDevice {
         walls: &Walls,
         normals: bool,
     ) -> Result<Option<SurfaceMesh>> {
-        let mut maker = self
-            .maker
-            .lock()
-            .unwrap_or_else(std::sync::PoisonError::into_inner);
-        let (maker, sum) = &mut *maker;
+        let mut workshop = self.workshop();
+        let Workshop { maker, figures } = &mut *workshop;
         let scene = Scene::of_points(
             &cloud.position,
             Dimensions::Three,
@@ -72,6 +93,8 @@ impl OnDevice {
             reach: surface::usual_reach(spacing),
             width,
             addressing: self.addressing,
+            kernel: self.kernel,
+            drops: None,
             sides: [0, 1, 2].map(|axis| sides[axis].map(|side| local(side, axis))),
         };
         let lattice = lattice(&cloud.position, &shape, scene.origin)?;
@@ -83,57 +106,57 @@ impl OnDevice {
             variant: &plan.variant,
             particles: cloud.position.len() as u32,
         };
-        let mut mesh = maker.make(&searched, &shape, &lattice)?;
-        add(sum, &mesh.figures);
-        if mesh.triangles == 0 {
-            return Ok(None);
-        }
+        let mesh = maker.make(&searched, &shape, &lattice)?;
+        add(figures, &mesh.figures);
         let mut columns = Vec::new();
         for VertexColumn { name, width, values } in &cloud.columns {
             columns.push(VertexColumn {
                 name: name.clone(),
                 width: *width,
-                values: maker.blend(&searched, &mut mesh, values, *width as u32)?,
+                values: maker.blend(&searched, &mesh, values, *width as u32)?,
             });
         }
-        self.fetch(&mesh, &scene, columns, normals).map(|mut fetched| {
-            for vertex in &mut fetched.vertices {
-                *vertex = walls.way_out(*vertex, cloud.frame, spacing);
-            }
-            Some(fetched)
-        })
+        if mesh.triangles == 0 {
+            return Ok(None);
+        }
+        let mut fetched = fetch(&self.gpu, maker.buffers(), &mesh, &scene, columns, normals)?;
+        for vertex in &mut fetched.vertices {
+            *vertex = walls.way_out(*vertex, cloud.frame, spacing);
+        }
+        Ok(Some(fetched))
     }
+}
 
-    /// Brings a mesh to the host.
-    fn fetch(
-        &self,
-        mesh: &Mesh,
-        scene: &Scene,
-        columns: Vec<VertexColumn>,
-        normals: bool,
-    ) -> Result<SurfaceMesh> {
-        let vectors = |name: &str| -> Result<Vec<Vec3>> {
-            let buffer = mesh.buffers.get(name, "(host)")?;
-            let stored = readback::read::<[f32; 4]>(&self.gpu, buffer, mesh.vertices as usize)?;
-            Ok(stored
-                .into_iter()
-                .map(|[x, y, z, _]| Vec3::new(x, y, z))
-                .collect())
-        };
-        let triangles = mesh.buffers.get("mesh_triangle", "(host)")?;
-        Ok(SurfaceMesh {
-            vertices: vectors("mesh_position")?
-                .into_iter()
-                .map(|place| place.as_dvec3() + scene.origin)
-                .collect(),
-            normals: match normals {
-                true => vectors("mesh_normal")?.into_iter().map(Into::into).collect(),
-                false => Vec::new(),
-            },
-            columns,
-            triangles: readback::read(&self.gpu, triangles, mesh.triangles as usize)?,
-        })
-    }
+/// Brings a mesh to the host.
+fn fetch(
+    gpu: &Gpu,
+    buffers: &Buffers,
+    mesh: &Mesh,
+    scene: &Scene,
+    columns: Vec<VertexColumn>,
+    normals: bool,
+) -> Result<SurfaceMesh> {
+    let vectors = |name: &str| -> Result<Vec<Vec3>> {
+        let buffer = buffers.get(name, "(host)")?;
+        let stored = readback::read::<[f32; 4]>(gpu, buffer, mesh.vertices as usize)?;
+        Ok(stored
+            .into_iter()
+            .map(|[x, y, z, _]| Vec3::new(x, y, z))
+            .collect())
+    };
+    let triangles = buffers.get("mesh_triangle", "(host)")?;
+    Ok(SurfaceMesh {
+        vertices: vectors("mesh_position")?
+            .into_iter()
+            .map(|place| place.as_dvec3() + scene.origin)
+            .collect(),
+        normals: match normals {
+            true => vectors("mesh_normal")?.into_iter().map(Into::into).collect(),
+            false => Vec::new(),
+        },
+        columns,
+        triangles: readback::read(gpu, triangles, mesh.triangles as usize)?,
+    })
 }
 
 /// The box of voxels around particles. Nodes stand at whole multiples of a voxel's width, so that waves do not swim through

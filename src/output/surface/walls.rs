@@ -3,7 +3,6 @@
 use glam::{DVec3, Vec3};
 
 use crate::physics::collider::offset_at;
-use crate::scene::model::Wall;
 use crate::scene::obstacles::Obstacle;
 use crate::scene::{Dimensions, Scene};
 
@@ -17,7 +16,7 @@ const DEEPEST: f64 = 2.0;
 /// The walls of a scene, in its own coordinates.
 #[derive(Default)]
 pub struct Walls<'a> {
-    /// Where the domain's sides stand along each axis, metres; none where a side lets particles through.
+    /// Where the domain's sides stand along each axis, metres; none where particles leave it.
     sides: [[Option<f64>; 2]; 3],
     obstacles: Vec<(Obstacle<'a>, &'a [(f64, Vec3)])>,
     /// Metres.
@@ -27,12 +26,8 @@ pub struct Walls<'a> {
 
 impl<'a> Walls<'a> {
     pub fn of(scene: &'a Scene) -> Self {
-        let domain = &scene.domain;
-        let side = |axis: usize, upper: usize| {
-            let local = [domain.min, domain.max][upper][axis];
-            let is_solid = !matches!(domain.sides[axis][upper], Wall::Open | Wall::Periodic);
-            is_solid.then(|| f64::from(local) + scene.origin[axis])
-        };
+        let ends = scene.domain.ends();
+        let global = |axis: usize| ends[axis].map(|end| end.map(|end| f64::from(end) + scene.origin[axis]));
         let obstacle = |collider: &'a crate::scene::Collider| {
             (
                 Obstacle::new(&collider.shape, Dimensions::Three),
@@ -40,14 +35,14 @@ impl<'a> Walls<'a> {
             )
         };
         Self {
-            sides: [0, 1, 2].map(|axis| [side(axis, 0), side(axis, 1)]),
+            sides: [0, 1, 2].map(global),
             obstacles: scene.colliders.iter().map(obstacle).collect(),
             origin: scene.origin,
             fps: scene.time.fps,
         }
     }
 
-    /// Where the domain's sides stand along each axis, metres; none where a side lets particles through.
+    /// Where the domain's sides stand along each axis, metres; none where particles leave it.
     pub fn sides(&self) -> [[Option<f64>; 2]; 3] {
         self.sides
     }

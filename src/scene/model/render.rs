@@ -19,6 +19,8 @@ pub struct Render {
     pub splat: Splat,
     /// What water looks like where `look` is `water`.
     pub water: Water,
+    /// How a surface is made of particles, where `look` is `mesh` and where water's surface is one.
+    pub mesh: MeshStyle,
     /// Drawn radius over the particle's radius.
     #[schemars(range(min = 0.01, max = 10.0))]
     pub splat_scale: f64,
@@ -57,6 +59,7 @@ impl Default for Render {
             look: Look::default(),
             splat: Splat::default(),
             water: Water::default(),
+            mesh: MeshStyle::default(),
             splat_scale: 1.0,
             color: Color::default(),
             camera: Camera::default(),
@@ -73,6 +76,15 @@ impl Default for Render {
 }
 
 impl Render {
+    /// Whether each picture is drawn from particles where they stand, so that there are extra images and blur.
+    pub fn follows_particles(&self) -> bool {
+        match self.look {
+            Look::Splats | Look::Spheres => true,
+            Look::Water => self.water.surface == WaterSurface::Screen,
+            Look::Mesh => false,
+        }
+    }
+
     /// Whether a frame is the mean of several pictures.
     pub fn is_blurred(&self) -> bool {
         self.shutter > 0.0 || self.camera.aperture > 0.0
@@ -101,11 +113,10 @@ pub enum Look {
     Splats,
     /// One lit sphere per particle, whatever `splat` says, in the color of its value.
     Spheres,
-    /// The smooth surface of a clear liquid, which reflects the sky and refracts what lies behind it: screen-space fluid
-    /// with a narrow-range filter (Truong and Yuksel 2018). Fluids in 3D have it.
+    /// The smooth surface of a clear liquid, which reflects the sky and refracts what lies behind it. Fluids in 3D have it.
     Water,
     /// One closed surface around the particles, lit, in the color of their values: a mesh that the device makes of each
-    /// frame (Zhu and Bridson 2005). Fluids in 3D have it.
+    /// frame. Fluids in 3D have it.
     Mesh,
 }
 
@@ -138,14 +149,35 @@ pub enum PassFiles {
     Png,
 }
 
-impl Look {
-    /// Whether each picture is drawn from particles where they stand, so that there are extra images and blur.
-    pub fn follows_particles(self) -> bool {
-        match self {
-            Self::Splats | Self::Spheres | Self::Water => true,
-            Self::Mesh => false,
-        }
-    }
+/// How a surface is made of particles.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct MeshStyle {
+    /// What each particle adds to the function that the surface is the zero of.
+    pub kernel: SurfaceKernel,
+}
+
+/// What each particle adds to the function that a surface is the zero of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SurfaceKernel {
+    /// An ellipsoid as flat as what is around the particle: sheets stay thin (Yu and Turk 2013).
+    Anisotropic,
+    /// The same in all directions: the distance from the mean of the particles around (Zhu and Bridson 2005).
+    #[default]
+    Isotropic,
+}
+
+/// What the surface of water is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum WaterSurface {
+    /// Spheres as the eye sees them, smoothed by a narrow-range filter (Truong and Yuksel 2018); the cost follows the picture's
+    /// size.
+    #[default]
+    Screen,
+    /// A mesh around the particles, made on the device; the cost follows their number. It has neither extra images nor blur.
+    Mesh,
 }
 
 /// What water looks like.
@@ -160,6 +192,8 @@ pub struct Water {
     pub absorption_length: Option<f64>,
     /// Whether particles with few neighbors are white spray; otherwise they are clear drops.
     pub spray: bool,
+    /// What the surface is made of.
+    pub surface: WaterSurface,
 }
 
 impl Default for Water {
@@ -168,6 +202,7 @@ impl Default for Water {
             color: "#4fa6c4".into(),
             absorption_length: None,
             spray: true,
+            surface: WaterSurface::default(),
         }
     }
 }

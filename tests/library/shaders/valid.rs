@@ -9,6 +9,7 @@ use sliceflow::gpu::{Shader, Variant};
 use sliceflow::neighbors::STORAGES;
 use sliceflow::physics::layout::SHARED;
 use sliceflow::plan::{Plan, Wanted};
+use sliceflow::scene::model::SurfaceKernel;
 use sliceflow::surface::layout::{Surface, SurfaceTotals};
 use sliceflow::surface::{self, Shape};
 
@@ -54,6 +55,17 @@ fn every_planned_buffer_is_used_by_a_pass() {
 /// Shaders of surfaces: those that look at particles, whatever search they come from, and those that look at voxels.
 #[test]
 fn every_shader_of_surfaces_is_valid_and_shares_its_structs() {
+    // What others import.
+    const PARTS: [&str; 8] = [
+        "implicit",
+        "mirrors",
+        "unit",
+        "blend",
+        "cells",
+        "marks",
+        "surface",
+        "cube_table",
+    ];
     let of_particles = [
         "find_shell",
         "list_shell",
@@ -78,12 +90,18 @@ fn every_shader_of_surfaces_is_valid_and_shares_its_structs() {
     };
     for scene in &scenes {
         let plan = Plan::new(scene, &Limits::PROMISED, &Wanted::default()).expect("a plan");
-        for addressing in surface::ADDRESSINGS {
+        let kernels = [SurfaceKernel::Anisotropic, SurfaceKernel::Isotropic];
+        for (addressing, kernel) in surface::ADDRESSINGS
+            .into_iter()
+            .flat_map(|a| kernels.map(|k| (a, k)))
+        {
             let shape = Shape {
                 spacing: 1.0,
                 reach: 2.5,
                 width: 0.5,
                 addressing,
+                kernel,
+                drops: None,
                 sides: [[None; 2]; 3],
             };
             let [mut particles, voxels] = surface::variants(&plan.variant, &shape);
@@ -93,7 +111,8 @@ fn every_shader_of_surfaces_is_valid_and_shares_its_structs() {
             for path in compose::files() {
                 match path.strip_prefix("surface/") {
                     Some(file) if of_particles.contains(&file) => load(file, &particles),
-                    Some("implicit" | "cells" | "marks" | "surface" | "cube_table") | None => {}
+                    Some(file) if PARTS.contains(&file) || file.contains('/') => {}
+                    None => {}
                     Some(file) => load(file, &voxels),
                 }
             }
