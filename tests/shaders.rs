@@ -25,7 +25,7 @@ fn wanted() -> Wanted {
         columns_every: 0,
         view: None,
         voxel_map: Some(64),
-        sensors: false,
+        ..Wanted::default()
     }
 }
 
