@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use crate::guards::{Family, GuardKind};
+
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// One thing wrong with a scene: where, what, and what helps.
@@ -38,8 +40,11 @@ impl fmt::Display for Problem {
 /// What a guard found wrong in a run, and where.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Violation {
-    /// Which guard that was, in one word: `not_finite`, `energy`, ….
-    pub guard: &'static str,
+    pub guard: GuardKind,
+    /// Of the solver whose particles they are.
+    pub family: Family,
+    /// Figures that belong to the likely cause.
+    pub detail: String,
     /// The first frame behind it, which is not written.
     pub frame: u32,
     /// Steps since the run began.
@@ -52,13 +57,9 @@ pub struct Violation {
     pub step_limited_by: &'static str,
     /// The particle that went wrong, where the guard watches particles one by one.
     pub particle: Option<Caught>,
-    pub what: String,
-    pub likely_cause: String,
-    /// What to change.
-    pub help: String,
 }
 
-/// The first particle that the device's guard caught.
+/// A particle that the device's guard caught. Of many in one step it is the same one in every run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Caught {
     pub id: u32,
@@ -201,9 +202,17 @@ impl fmt::Display for Error {
 }
 
 impl Violation {
-    /// Whether smaller steps may help.
-    pub fn may_come_of_steps(&self) -> bool {
-        !["overflow", "edge"].contains(&self.guard)
+    pub fn what(&self) -> &'static str {
+        self.guard.row().what
+    }
+
+    pub fn likely_cause(&self) -> String {
+        format!("{} ({})", self.guard.row().cause, self.detail)
+    }
+
+    /// What to change.
+    pub fn help(&self) -> &'static str {
+        self.guard.row().help(self.family)
     }
 }
 
@@ -212,7 +221,10 @@ impl fmt::Display for Violation {
         write!(
             f,
             "{} at frame {}, step {}, t = {:.6} s",
-            self.what, self.frame, self.step, self.time
+            self.what(),
+            self.frame,
+            self.step,
+            self.time
         )?;
         if let Some(caught) = &self.particle {
             let [x, y, z] = caught.position;
@@ -227,7 +239,8 @@ impl fmt::Display for Violation {
         write!(
             f,
             "\n  likely cause: {}\n  help: {}",
-            self.likely_cause, self.help
+            self.likely_cause(),
+            self.help()
         )
     }
 }

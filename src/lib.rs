@@ -14,6 +14,7 @@
 //!
 //! Imports point one way: a room uses those above it in this list, never those below.
 //!
+//! - `src/guards.rs`: what stops a run whose numbers can no longer be right, as a table.
 //! - `src/error.rs`: the one error type; every message says what to do next.
 //! - `src/files.rs`: files that others name: none that never ends is read, nothing is written through a link.
 //! - `src/scene/`: what a user writes (`src/scene/model.rs`), checked against its own schema (`src/scene/check.rs`),
@@ -121,6 +122,8 @@
 //! - a picture of `sliceflow gallery`: one row in `src/cli/gallery/scenes.rs`;
 //! - a format of surfaces: one row in `src/output/surface/mesh_file.rs`;
 //! - a color map: one row in `src/scene/color_maps.rs`;
+//! - a guard: one row in `src/guards.rs`, and what looks for it: `shaders/physics/guard.wgsl` at particles, `src/output/guards.rs` at
+//!   frames;
 //! - a study: one row in `src/study/mod.rs`, whose parts (`src/study/parts.rs`) run alone too;
 //! - a case with a known truth: one file and one row in `src/study/accuracy/cases/`, its data in `assets/reference/`;
 //! - a scene of `sliceflow bench`: one row in `src/study/suite/scenes.rs`;
@@ -133,6 +136,7 @@ pub mod cli;
 pub mod error;
 mod files;
 pub mod gpu;
+pub mod guards;
 pub mod neighbors;
 pub mod output;
 pub mod physics;

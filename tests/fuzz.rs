@@ -1,7 +1,8 @@
 //! Changed inputs, at random but the same ones in every run: no entry panics, hangs or takes much memory, whatever it is
-//! given. An hour of it, which tells how many inputs each entry got:
+//! given. An hour of it, which tells how many inputs each entry got, how many in a second, and what the most patient one took:
 //!
-//! `cargo test --release --test fuzz -- --ignored --nocapture`; SLICEFLOW_FUZZ_SECONDS says how long.
+//! `cargo test --release --test fuzz -- --ignored --nocapture`; SLICEFLOW_FUZZ_SECONDS says how long, SLICEFLOW_FUZZ_FIRST
+//! which inputs are the first, so that one hour does not repeat another one.
 
 #![cfg(all(feature = "cli", feature = "surface"))]
 
@@ -34,6 +35,8 @@ struct Entry {
     name: &'static str,
     /// Inputs of the short test.
     count: u32,
+    /// Seconds of each round of the long one: most of its inputs are of the entries that read the quickest.
+    seconds: u32,
     seeds: fn() -> Vec<Seed>,
     /// Takes a folder and the name of the file in it.
     read: fn(&Path, &str),
@@ -49,6 +52,7 @@ const ENTRIES: &[Entry] = &[
     Entry {
         name: "scenes and plans",
         count: 160,
+        seconds: 3,
         seeds: scenes,
         read: |folder, name| {
             let text = fs::read_to_string(folder.join(name)).unwrap_or_default();
@@ -65,6 +69,7 @@ const ENTRIES: &[Entry] = &[
     Entry {
         name: "import",
         count: 80,
+        seconds: 1,
         seeds: || vec![seed("dam.json", PEER.as_bytes())],
         read: |folder, name| {
             let allowance = Allowance {
@@ -78,6 +83,7 @@ const ENTRIES: &[Entry] = &[
     Entry {
         name: "particle files",
         count: 1_500,
+        seconds: 8,
         seeds: particles,
         read: |folder, name| {
             let path = folder.join(name);
@@ -90,6 +96,7 @@ const ENTRIES: &[Entry] = &[
     Entry {
         name: "meshes",
         count: 800,
+        seconds: 12,
         seeds: meshes,
         read: |folder, name| {
             let _ = Mesh::load(&folder.join(name));
@@ -98,6 +105,7 @@ const ENTRIES: &[Entry] = &[
     Entry {
         name: "checkpoints",
         count: 600,
+        seconds: 2,
         seeds: || vec![seed("checkpoint_000002.bin", &checkpoint())],
         read: |folder, name| {
             let path = folder.join(name);
@@ -115,6 +123,7 @@ const ENTRIES: &[Entry] = &[
     Entry {
         name: "run folders",
         count: 200,
+        seconds: 1,
         seeds: || {
             vec![
                 seed("run.json", manifest().as_bytes()),
@@ -430,16 +439,24 @@ impl Watch {
     }
 }
 
-/// Has an entry read changed inputs until `goes_on` says no; gives their number.
-fn fuzz(entry: &Entry, first: u64, watch: &Watch, goes_on: impl Fn(u32) -> bool) -> u32 {
+/// What reading changed inputs came to.
+#[derive(Clone, Copy, Default)]
+struct Read {
+    inputs: u64,
+    spent: Duration,
+    longest: Duration,
+}
+
+/// Has an entry read changed inputs until `goes_on` says no.
+fn fuzz(entry: &Entry, first: u64, watch: &Watch, goes_on: impl Fn(u64) -> bool) -> Read {
     let folder = tempfile::Builder::new()
         .prefix("fuzz-")
         .tempdir()
         .expect("a temporary folder");
     let seeds = (entry.seeds)();
-    let mut count = 0;
-    while goes_on(count) {
-        let number = first + u64::from(count);
+    let mut sum = Read::default();
+    while goes_on(sum.inputs) {
+        let number = first + sum.inputs;
         let (name, bytes) = match seeds.get(number as usize) {
             // Each as it is, first.
             Some(seed) => (seed.name.clone(), seed.bytes.clone()),
@@ -447,17 +464,21 @@ fn fuzz(entry: &Entry, first: u64, watch: &Watch, goes_on: impl Fn(u32) -> bool)
         };
         fs::write(folder.path().join(&name), &bytes).expect("a file in a temporary folder");
         watch.begin();
+        let begun = Instant::now();
         let read = catch_unwind(AssertUnwindSafe(|| (entry.read)(folder.path(), &name)));
         watch.end();
+        let took = begun.elapsed();
         if read.is_err() {
             let kept = std::env::temp_dir().join(format!("sliceflow-fuzz-{number}-{name}"));
             fs::write(&kept, &bytes).expect("a file in the temporary folder");
             panic!("{}: input {number} panics; it is {}", entry.name, kept.display());
         }
         fs::remove_file(folder.path().join(&name)).expect("the input");
-        count += 1;
+        sum.inputs += 1;
+        sum.spent += took;
+        sum.longest = sum.longest.max(took);
     }
-    count
+    sum
 }
 
 /// The most that the program has taken so far, bytes, where the system says it.
@@ -472,7 +493,7 @@ fn peak_memory() -> u64 {
 fn no_entry_stumbles_over_changed_inputs() {
     let watch = Watch::new();
     for entry in ENTRIES {
-        fuzz(entry, 0, &watch, |count| count < entry.count);
+        fuzz(entry, 0, &watch, |count| count < entry.count.into());
         assert!(
             peak_memory() < MOST_MEMORY,
             "{} took {} bytes",
@@ -485,18 +506,23 @@ fn no_entry_stumbles_over_changed_inputs() {
 #[test]
 #[ignore = "takes an hour"]
 fn an_hour_of_changed_inputs() {
-    let seconds = std::env::var("SLICEFLOW_FUZZ_SECONDS")
-        .ok()
-        .and_then(|text| text.parse().ok());
+    let number = |name: &str| -> Option<u64> { std::env::var(name).ok()?.parse().ok() };
+    let seconds = number("SLICEFLOW_FUZZ_SECONDS");
     let end = Instant::now() + Duration::from_secs(seconds.unwrap_or(3600));
     let watch = Watch::new();
-    let mut counts = vec![0u64; ENTRIES.len()];
+    let mut sums = vec![Read::default(); ENTRIES.len()];
     // Other numbers than those of the short test.
-    let mut first = 1 << 32;
+    let part = number("SLICEFLOW_FUZZ_FIRST").unwrap_or(1);
+    let first = part << 32;
     while Instant::now() < end {
-        for (entry, count) in ENTRIES.iter().zip(&mut counts) {
-            let slice = Instant::now() + Duration::from_secs(5);
-            *count += u64::from(fuzz(entry, first, &watch, |_| Instant::now() < slice.min(end)));
+        for (entry, sum) in ENTRIES.iter().zip(&mut sums) {
+            let slice = Instant::now() + Duration::from_secs(entry.seconds.into());
+            let read = fuzz(entry, first + sum.inputs, &watch, |_| {
+                Instant::now() < slice.min(end)
+            });
+            sum.inputs += read.inputs;
+            sum.spent += read.spent;
+            sum.longest = sum.longest.max(read.longest);
             assert!(
                 peak_memory() < MOST_MEMORY,
                 "{} took {} bytes",
@@ -504,14 +530,19 @@ fn an_hour_of_changed_inputs() {
                 peak_memory()
             );
         }
-        first += 1 << 32;
     }
-    for (entry, count) in ENTRIES.iter().zip(&counts) {
-        println!("{:>12} inputs: {}", count, entry.name);
+    for (entry, sum) in ENTRIES.iter().zip(&sums) {
+        println!(
+            "{:>12} inputs, {:>9.1} a second, {:>7.3} s at most: {}",
+            sum.inputs,
+            sum.inputs as f64 / sum.spent.as_secs_f64(),
+            sum.longest.as_secs_f64(),
+            entry.name
+        );
     }
     println!(
         "{:>12} in all, {} MiB at most",
-        counts.iter().sum::<u64>(),
+        sums.iter().map(|sum| sum.inputs).sum::<u64>(),
         peak_memory() >> 20
     );
 }

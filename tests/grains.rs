@@ -313,7 +313,7 @@ fn the_guard_names_what_single_precision_no_longer_resolves() {
     scene.particles.position[0].x = 0.0;
     scene.particles.velocity[0].x = 2.5 * radius / scene.time.step as f32;
     let error = run(&scene, 1).expect_err("too fast").to_string();
-    assert!(error.contains("farther than its diameter"), "{error}");
+    assert!(error.contains("farther than its neighbors are"), "{error}");
 }
 
 #[test]

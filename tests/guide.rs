@@ -356,3 +356,18 @@ fn every_key_has_a_description() {
         missing.join(", ")
     );
 }
+
+#[test]
+fn the_page_of_guards_has_every_guard() {
+    let page = read(&guide().join("guards.md"));
+    let rows: Vec<String> = sliceflow::guards::GUARDS
+        .iter()
+        .map(|row| format!("| `{}` | {} | {} |", row.word, row.finds, row.looks_at))
+        .collect();
+    let there: Vec<&str> = page
+        .lines()
+        .filter(|line| line.starts_with("| `") && line.matches('|').count() == 4)
+        .take(rows.len())
+        .collect();
+    assert_eq!(there, rows);
+}

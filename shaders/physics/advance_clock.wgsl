@@ -1,7 +1,6 @@
 #flag advances_clock
 #import physics/clock
 #import physics/guard
-#import fields/id
 #if adaptive_step
 #import physics/choose_step
 #end
@@ -19,7 +18,6 @@ fn advance_clock() {
 #end
     if atomicLoad(&guard.count) > 0u && guard.step == GUARD_NO_STEP {
         guard.step = clock.step;
-        guard.id = id[guard.id];
     }
     clock.step_in_segment += 1u;
     clock.step += 1u;

@@ -1,7 +1,9 @@
 // What moves note of the particles, in one buffer: accidents; what the length of the next step depends on; whether lists
-// still serve. A particle that became non-finite, left a closed domain or ran away is stopped, and the first one's story is
-// kept.
+// still serve. A particle that became non-finite, left a closed domain or ran away is stopped. Of the accidents of the first
+// step that has any, the same one is told in every run, whichever thread comes first.
 #import common/vector
+#import common/shuffle
+#import fields/id
 
 // Bits of numbers that are not negative, which are ordered as the numbers are.
 struct Extremes {
@@ -10,17 +12,25 @@ struct Extremes {
     sound: atomic<u32>, // the greatest speed of sound, m/s
 }
 
+struct Accident {
+    position: vec4f, // before the step, m
+    velocity: vec4f, // after it, m/s
+    id: u32,
+    kind: u32, // one of GUARD_… (src/guards.rs)
+    order: u32, // the accident with the lowest one is told
+}
+
 struct Guard {
-    lower: vec4f, // m; where a particle counts as lost, far away on open sides
-    upper: vec4f, // w: square of a speed, m²/s²; what is faster has run away
-    position: vec4f, // of the first particle caught, m
-    velocity: vec4f, // m/s
-    id: u32, // of that particle; its slot, until advance_clock.wgsl looks up the id
-    step: u32, // advance_clock.wgsl sets it
-    kind: u32, // GUARD_NOT_FINITE, GUARD_LOST, GUARD_RAN_AWAY or GUARD_CROWDED
-    count: atomic<u32>, // catches in all
+    lower: vec4f, // m; where a particle counts as lost, far away on open sides; w: how far that is
+    upper: vec4f, // w: square of a speed, m²/s²; what is faster is too fast for a step, or for sound
+    runaway: f32, // square of the speed beyond which fluid has run away, m²/s²
+    step: u32, // of the first accidents; advance_clock.wgsl sets it
+    count: atomic<u32>, // accidents in all
+    lowest: atomic<u32>, // order among the first ones
+    noted: atomic<u32>,
     extremes: Extremes, // of the step
     far: atomic<u32>, // not zero: a particle has moved so far that a neighbor may be missing from a list
+    accidents: array<Accident, ACCIDENTS>, // those of the first step that were lower than all before them
 }
 
 var<storage, read_write> guard: Guard;
@@ -31,20 +41,51 @@ fn is_finite(v: Vector) -> bool {
     return all(exponent != vec4u(0x7f800000u));
 }
 
-// `moved` and `velocity` are what the step wants; on an accident the particle stays where it was, at rest.
-fn watch(slot: u32, before: Vector, moved: ptr<function, Vector>, velocity: ptr<function, Vector>) {
-    let finite = is_finite(*moved) && is_finite(*velocity);
-    let within = all(*moved >= first(guard.lower)) && all(*moved <= first(guard.upper));
-    let flows = dot(*velocity, *velocity) <= guard.upper.w;
-    if finite && within && flows {
+fn note_accident(slot: u32, kind: u32, position: Vector, velocity: Vector) {
+    atomicAdd(&guard.count, 1u);
+    if guard.step != GUARD_NO_STEP {
         return;
     }
-    if atomicAdd(&guard.count, 1u) == 0u {
-        guard.id = slot;
-        guard.kind = select(select(GUARD_RAN_AWAY, GUARD_LOST, !within), GUARD_NOT_FINITE, !finite);
-        guard.position = vec4f(to_3d(before), 0.0);
-        guard.velocity = vec4f(to_3d(*velocity), 0.0);
+    // In whatever order ids are caught, few of these numbers are lower than all before.
+    let order = shuffled(id[slot]);
+    if order >= atomicMin(&guard.lowest, order) {
+        return;
     }
+    let place = atomicAdd(&guard.noted, 1u);
+    if place < ACCIDENTS {
+        guard.accidents[place].position = vec4f(to_3d(position), 0.0);
+        guard.accidents[place].velocity = vec4f(to_3d(velocity), 0.0);
+        guard.accidents[place].id = id[slot];
+        guard.accidents[place].kind = kind;
+        guard.accidents[place].order = order;
+    }
+}
+
+// What is wrong with a place beyond the bounds: open sides have theirs where single precision ends.
+fn crossed_bound(moved: Vector) -> u32 {
+    let edge = guard.lower.w;
+    let below = (moved < first(guard.lower)) & (first(guard.lower) > Vector(-edge));
+    let above = (moved > first(guard.upper)) & (first(guard.upper) < Vector(edge));
+    return select(GUARD_EDGE, GUARD_LOST, any(below | above));
+}
+
+// `moved` and `velocity` are what the step wants; on an accident the particle stays where it was, at rest.
+fn watch(slot: u32, before: Vector, moved: ptr<function, Vector>, velocity: ptr<function, Vector>) {
+#if !unguarded
+    let square = dot(*velocity, *velocity);
+    let finite = is_finite(*moved) && is_finite(*velocity);
+    let within = all(*moved >= first(guard.lower)) && all(*moved <= first(guard.upper));
+    if finite && within && square <= guard.upper.w {
+        return;
+    }
+    var kind = select(GUARD_TOO_FAST, GUARD_RUNAWAY, square > guard.runaway);
+    if !finite {
+        kind = GUARD_NOT_FINITE;
+    } else if !within {
+        kind = crossed_bound(*moved);
+    }
+    note_accident(slot, kind, before, *velocity);
     *moved = before;
     *velocity = Vector(0.0);
+#end
 }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::text::count;
 use crate::error::Violation;
+use crate::guards::GuardKind;
 use crate::physics::layout::Convergence;
 use crate::physics::model;
 use crate::scene::Scene;
@@ -60,8 +61,8 @@ struct Energy {
     particles: u32,
 }
 
-/// A guard's word, what it found, the likely cause, and what to change.
-type Story = (&'static str, String, String, String);
+/// A guard, and figures for what it found.
+type Found = (GuardKind, String);
 
 impl Guards {
     /// Looks at the next frame.
@@ -72,27 +73,26 @@ impl Guards {
             .and_then(|convergence| self.unconverged(scene, convergence));
         let figures = frame.statistics.as_ref();
         let found = overflow(scene, frame)
-            .or_else(|| figures.and_then(|figures| not_finite(scene, figures)))
+            .or_else(|| figures.and_then(|figures| not_finite(figures)))
             .or_else(|| figures.and_then(|figures| strained(scene, frame.index, figures)))
             .or(unconverged)
             .or_else(|| figures.and_then(|figures| self.energy(scene, frame, figures)));
-        let (guard, what, likely_cause, help) = found?;
+        let (guard, detail) = found?;
         Some(Violation {
             guard,
+            family: model(&scene.matter).family,
+            detail,
             frame: frame.index,
             step: frame.steps,
             time: frame.time,
             step_s: frame.step_s,
             step_limited_by: frame.step_limited_by,
             particle: None,
-            what,
-            likely_cause,
-            help,
         })
     }
 
     /// A pressure solver that has given up step after step, far from what it looks for.
-    fn unconverged(&mut self, scene: &Scene, convergence: &Convergence) -> Option<Story> {
+    fn unconverged(&mut self, scene: &Scene, convergence: &Convergence) -> Option<Found> {
         let fluid = scene.fluid()?;
         let density = f64::from(convergence.density_error);
         let divergence = f64::from(convergence.divergence_error);
@@ -114,24 +114,19 @@ impl Guards {
             false => self.unconverged = 0,
         }
         (self.unconverged >= UNCONVERGED_STEPS).then(|| {
-            (
-                "unconverged",
-                format!(
-                    "the pressure solver did not converge in {} steps in a row",
-                    count(self.unconverged.into())
-                ),
-                format!(
-                    "its errors of density and divergence are {density:.1e} and {divergence:.1e}, {:.1e} and {:.1e} are asked \
-                     for: the fluid is pressed into less room than it needs, or steps are too long",
-                    fluid.max_density_error, fluid.max_divergence_error
-                ),
-                "give the fluid more room, set time.step lower, or raise fluid.max_iterations".into(),
-            )
+            let detail = format!(
+                "in {} steps in a row; errors of density and divergence are {density:.1e} and {divergence:.1e}, {:.1e} and \
+                 {:.1e} are asked for",
+                count(self.unconverged.into()),
+                fluid.max_density_error,
+                fluid.max_divergence_error
+            );
+            (GuardKind::Unconverged, detail)
         })
     }
 
     /// Energy that grows although nothing adds any.
-    fn energy(&mut self, scene: &Scene, frame: &Frame, figures: &Statistics) -> Option<Story> {
+    fn energy(&mut self, scene: &Scene, frame: &Frame, figures: &Statistics) -> Option<Found> {
         if *self.has_source.get_or_insert_with(|| has_source(scene)) {
             return None;
         }
@@ -152,24 +147,12 @@ impl Guards {
         };
         let allowed = share * begun.scale + ROUNDING * figures.kinetic_energy;
         (gain > allowed).then(|| {
-            let step = frame.step_s;
-            let help = match (scene.fluid(), scene.sound_speed()) {
-                (Some(_), Some(_)) => {
-                    "lower time.step, raise fluid.max_speed, or set fluid.negative_pressure to `clamp`"
-                }
-                (Some(_), None) => "lower fluid.courant_number or time.step",
-                (None, _) => "lower time.step, or raise time.steps_per_contact",
-            };
-            (
-                "energy",
-                "energy grows without a source".into(),
-                format!(
-                    "motion and height together have {gain:.3e} J more than at frame {}, where there were {:.3e} J to gain \
-                     it from: the step of {step:.3e} s is too long, or pressures push the fluid apart",
-                    begun.frame, begun.scale
-                ),
-                help.into(),
-            )
+            let detail = format!(
+                "motion and height together have {gain:.3e} J more than at frame {}, where there were {:.3e} J to gain it \
+                 from; steps have {:.3e} s",
+                begun.frame, begun.scale, frame.step_s
+            );
+            (GuardKind::Energy, detail)
         })
     }
 }
@@ -218,7 +201,7 @@ fn has_source(scene: &Scene) -> bool {
 }
 
 /// What motion can gain energy from, joules: what it has, height above the domain's lowest corner, a fluid's own pressure
-/// and surface. Endless where a strained start holds energy that no figure tells.
+/// and surface, what contacts are pressed. Endless where a strained start holds energy that no figure tells.
 fn scale(scene: &Scene, frame: &Frame, figures: &Statistics) -> f64 {
     let density = figures.density_error.map_or(0.0, |[_, most]| most);
     // Pressures of an incompressible fluid hold no energy.
@@ -237,7 +220,12 @@ fn scale(scene: &Scene, frame: &Frame, figures: &Statistics) -> f64 {
         let faces = fluid.spacing.powi(scene.dimensions.count() as i32 - 1);
         0.5 * mass * (OWN_SPEED * fluid.max_speed).powi(2) + tension.fold(0.0, f64::max) * faces * particles
     });
-    figures.kinetic_energy + (figures.potential_energy + below).max(0.0) + own
+    // Contacts hold ½ k δ² each, of which all may become motion; a grain has a share of three in a dense packing.
+    let pressed = scene.grains().map_or(0.0, |grains| {
+        let overlap = figures.max_overlap * grains.radius;
+        3.0 * particles * 0.5 * grains.contact.spring * overlap.powi(2) / LARGEST_GAIN
+    });
+    figures.kinetic_energy + (figures.potential_energy + below).max(0.0) + own + pressed
 }
 
 fn is_dfsph(scene: &Scene) -> bool {
@@ -246,7 +234,7 @@ fn is_dfsph(scene: &Scene) -> bool {
         .is_some_and(|fluid| fluid.solver == FluidSolver::Dfsph)
 }
 
-fn not_finite(scene: &Scene, figures: &Statistics) -> Option<Story> {
+fn not_finite(figures: &Statistics) -> Option<Found> {
     let [mean, most] = figures.density_error.unwrap_or_default();
     let all = [
         figures.kinetic_energy,
@@ -255,58 +243,44 @@ fn not_finite(scene: &Scene, figures: &Statistics) -> Option<Story> {
         mean,
         most,
     ];
-    let fault = &model(&scene.matter).fault;
-    all.iter().any(|figure| !figure.is_finite()).then(|| {
-        (
-            "not_finite",
-            "an energy, speed or density of the particles is not a finite number".into(),
-            format!("a step was too long for {}", fault.too_long_for),
-            fault.shorter.into(),
-        )
-    })
+    all.iter()
+        .any(|figure| !figure.is_finite())
+        .then(|| (GuardKind::NotFinite, "in sums over the particles".into()))
 }
 
 /// Grains that lie in one another, and fluid that is far denser than at rest. A start may be so; what follows may not.
-fn strained(scene: &Scene, frame: u32, figures: &Statistics) -> Option<Story> {
+fn strained(scene: &Scene, frame: u32, figures: &Statistics) -> Option<Found> {
     let density = figures.density_error.map_or(0.0, |[_, most]| most);
     let deepest = match scene.rigid_bodies.is_empty() {
         true => DEEPEST_OVERLAP,
         false => DEEPEST_OVERLAP_OF_BODIES,
     };
     if frame > 0 && scene.grains().is_some() && figures.max_overlap > deepest {
-        return Some((
-            "overlap",
-            format!(
-                "grains overlap too deeply, by {:.2} of their radius",
-                figures.max_overlap
-            ),
-            "they are too soft for their weight or for how fast they meet, or the step is too long".into(),
-            "make them stiffer (grains.spring, or grains.young_modulus); four times the spring halves the overlap".into(),
-        ));
+        let detail = format!(
+            "the deepest overlap is {:.2} of their radius",
+            figures.max_overlap
+        );
+        return Some((GuardKind::Overlap, detail));
     }
     (frame > 0 && density > LARGEST_DENSITY_ERROR).then(|| {
-        (
-            "density",
-            format!("the density is out of range: |ρ/ρ₀ − 1| is {density:.2} somewhere in the fluid"),
-            "particles are pressed into one another: the flow is faster than expected, or the step is too long".into(),
-            "raise fluid.max_speed, lower time.step, or give the fluid more room".into(),
-        )
+        let detail = format!("|ρ/ρ₀ − 1| is {density:.2} somewhere in the fluid");
+        (GuardKind::Density, detail)
     })
 }
 
 /// A pool that is too small for many particles.
-fn overflow(scene: &Scene, frame: &Frame) -> Option<Story> {
+fn overflow(scene: &Scene, frame: &Frame) -> Option<Found> {
     let searches = f64::from(frame.searches.max(1));
     let each = frame.overflow as f64 / searches;
     let all = frame.particles + frame.boundary_particles;
     (frame.index > 0 && each > LARGEST_OVERFLOW * f64::from(all)).then(|| {
-        let slots = scene.neighbors.slots;
-        (
-            "overflow",
-            format!("a search finds no slot for {} of {} particles", each.round(), count(all.into())),
-            format!("voxels of the pool have {slots} slots, and more particles stand in them: many contacts are missed"),
-            "give voxels more room with --set neighbors.slots=8, or use --grid sliced-counting".into(),
-        )
+        let detail = format!(
+            "voxels have {} slots; a search finds none for {} of {} particles",
+            scene.neighbors.slots,
+            each.round(),
+            count(all.into())
+        );
+        (GuardKind::Overflow, detail)
     })
 }
 
@@ -358,7 +332,7 @@ mod tests {
     }
 
     /// The guard that stops the last of these frames; none stops one before.
-    fn stopped(scene: &Scene, frames: Vec<Frame>) -> Option<&'static str> {
+    fn stopped(scene: &Scene, frames: Vec<Frame>) -> Option<GuardKind> {
         let mut guards = Guards::default();
         let last = frames.len() - 1;
         let mut found = None;
@@ -380,7 +354,7 @@ mod tests {
         assert_eq!(stopped(&scene, and(frame(2, energies(100.0, 20.0)))), None);
         assert_eq!(
             stopped(&scene, and(frame(2, energies(100.0, 26.0)))),
-            Some("energy")
+            Some(GuardKind::Energy)
         );
         // An event has doubled the weight.
         assert_eq!(stopped(&scene, and(frame(31, energies(100.0, 200.0)))), None);
@@ -392,7 +366,7 @@ mod tests {
         assert_eq!(stopped(&scene, and(more)), None);
         assert_eq!(
             stopped(&scene, and(frame(2, energies(f64::NAN, 0.0)))),
-            Some("not_finite")
+            Some(GuardKind::NotFinite)
         );
     }
 
@@ -408,6 +382,24 @@ mod tests {
     }
 
     #[test]
+    fn contacts_that_are_pressed_a_little_may_push_grains_apart() {
+        let scene = scene(
+            &GRAINS
+                .replace(r#""gravity": [0, -10]"#, r#""gravity": [0, 0]"#)
+                .replace("[0, -20]", "[0, 0]"),
+        );
+        let pressed = Statistics {
+            max_overlap: 1e-4,
+            ..Statistics::default()
+        };
+        // ½ k δ² in 75 contacts.
+        let all = 75.0 * 0.5 * 1e5 * (1e-4 * 0.05_f64).powi(2);
+        let frames = |energy: f64| vec![frame(0, pressed), frame(1, energies(energy, 0.0))];
+        assert_eq!(stopped(&scene, frames(0.9 * all)), None);
+        assert_eq!(stopped(&scene, frames(1.1 * all)), Some(GuardKind::Energy));
+    }
+
+    #[test]
     fn what_moves_adds_energy() {
         let moving = GRAINS.replace(
             r#""events""#,
@@ -416,7 +408,7 @@ mod tests {
         );
         let frames = || vec![frame(0, energies(0.0, 100.0)), frame(1, energies(1e3, 0.0))];
         assert_eq!(stopped(&scene(&moving), frames()), None);
-        assert_eq!(stopped(&scene(GRAINS), frames()), Some("energy"));
+        assert_eq!(stopped(&scene(GRAINS), frames()), Some(GuardKind::Energy));
     }
 
     #[test]
@@ -428,9 +420,15 @@ mod tests {
         };
         let two = |figures: Statistics| vec![frame(0, figures), frame(1, figures)];
         assert_eq!(stopped(&scene(GRAINS), two(with(0.9, 0.0))), None);
-        assert_eq!(stopped(&scene(GRAINS), two(with(1.1, 0.0))), Some("overlap"));
+        assert_eq!(
+            stopped(&scene(GRAINS), two(with(1.1, 0.0))),
+            Some(GuardKind::Overlap)
+        );
         assert_eq!(stopped(&scene(FLUID), two(with(0.0, 1.5))), None);
-        assert_eq!(stopped(&scene(FLUID), two(with(0.0, 2.5))), Some("density"));
+        assert_eq!(
+            stopped(&scene(FLUID), two(with(0.0, 2.5))),
+            Some(GuardKind::Density)
+        );
     }
 
     #[test]
@@ -441,7 +439,7 @@ mod tests {
         };
         // Ten searches of 25 particles each.
         assert_eq!(stopped(&scene(GRAINS), vec![with(10)]), None);
-        assert_eq!(stopped(&scene(GRAINS), vec![with(20)]), Some("overflow"));
+        assert_eq!(stopped(&scene(GRAINS), vec![with(20)]), Some(GuardKind::Overflow));
     }
 
     #[test]
@@ -467,7 +465,7 @@ mod tests {
         );
         assert_eq!(stopped(&scene, row([(100, 0.005); 4])), None);
         let late = row([(0, 0.0), (100, 0.05), (100, 0.05), (100, 0.05)]);
-        assert_eq!(stopped(&scene, late), Some("unconverged"));
+        assert_eq!(stopped(&scene, late), Some(GuardKind::Unconverged));
     }
 
     #[test]

@@ -61,6 +61,7 @@ pub use configuration::Recorded;
 pub use disk::write as write_file;
 pub use estimate::{checkpoints as checkpoint_estimate, disk_bytes};
 pub use frame_range::FrameRange;
+pub use guards::Guards;
 pub use keeper::{Checkpoints, Every};
 pub use manifest::schema as manifest_schema;
 pub use measure::{Measured, measure};

@@ -114,7 +114,7 @@ pub(super) fn is_of_use(
         || names(folder.path()).is_ok_and(|names| names.iter().any(|name| name.starts_with("checkpoint_")));
     settings.on_instability == OnInstability::Retry
         && halvings(retries, Some(u32::MAX)) < MOST_HALVINGS
-        && violation.may_come_of_steps()
+        && violation.guard.row().may_come_of_steps
         // A variant begins with a state of another run, which this one does not have any more.
         && (configuration.variant_of.is_none() || has_checkpoint())
 }
@@ -174,7 +174,7 @@ impl<'a> Again<'a> {
         let from_frame = found.as_ref().map(|checkpoint| checkpoint.state.frame);
         self.retries.push(Retry {
             from_frame,
-            guard: violation.guard.into(),
+            guard: violation.guard.row().word.into(),
             message: violation.to_string(),
             frame: violation.frame,
             step: violation.step,

@@ -7,10 +7,11 @@ use super::bodies;
 use super::collider::{Obstacles, offset_at, velocity_between};
 use super::fluid::FLAG;
 use super::layout::{
-    ClampWalls, Collider, Contact, ContactWalls, FrictionalContact, Guard, Measure, Motion, Pairing,
+    ClampWalls, Collider, Contact, ContactWalls, FrictionalContact, Measure, Motion, Pairing,
 };
-use super::model::{Fault, Model, OwnFigures, Request, Solver, Written};
+use super::model::{Model, OwnFigures, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
+use crate::guards::Family;
 use crate::neighbors::grid::voxel_reach;
 use crate::neighbors::{Grid, lists};
 use crate::scene::field::{contact_slots, contact_words};
@@ -33,11 +34,7 @@ pub(super) const MODEL: Model = Model {
     from_state: &[],
     particle_mass: |scene| grains(&scene.matter).mass,
     sense_walls: ("physics/dem/sense_walls", false),
-    fault: Fault {
-        too_long_for: "the contact's stiffness or damping",
-        shorter: "lower time.step, raise time.steps_per_contact, or set time.adaptive",
-        lost: "raise grains.spring",
-    },
+    family: Family::Grains,
 };
 
 fn grains(matter: &Matter) -> &scene::Grains {
@@ -259,8 +256,7 @@ fn set_friction(scene: &Scene, grains: &scene::Grains, friction: &Friction, vari
         .constant("MATERIALS", friction.materials as u32)
         .role("contact_law", contact_law(friction.law))
         .constant("CONTACT_SLOTS", contact_slots(scene))
-        .constant("CONTACT_WORDS", contact_words(scene.dimensions, rolls))
-        .constant("GUARD_CROWDED", Guard::CROWDED);
+        .constant("CONTACT_WORDS", contact_words(scene.dimensions, rolls));
     if let Some(rolling) = friction.rolling {
         variant.role("rolling_law", rolling_law(rolling));
     }
@@ -388,41 +384,6 @@ fn walls_that_clamp(scene: &Scene) -> ClampWalls {
         restitution: scene.domain.restitution,
         ..Default::default()
     }
-}
-
-/// Speed beyond which a fluid's particle has run away, in speeds of sound. Scenes may throw fluid faster than sound; what is
-/// this fast is no flow, and soon no number.
-pub const RUNAWAY: f64 = 100.0;
-/// Beyond so many radii from the origin, numbers of single precision are a diameter apart.
-const EDGE: f64 = 16_777_216.0;
-
-/// How far away a particle may be, metres.
-pub fn edge(scene: &Scene) -> f32 {
-    (EDGE * scene.radius()) as f32
-}
-
-/// Where particles count as lost: a diameter beyond a side that is closed, and far away beyond one that is open. The upper's
-/// fourth number is the square of the speed beyond which they have run away: of fluids by the speed of sound, and where
-/// steps have one length, by how far a particle may move in one.
-pub fn guard_bounds(scene: &Scene) -> ([f32; 4], [f32; 4]) {
-    let (mut lower, mut upper) = bounds(
-        scene,
-        |wall| !matches!(wall, Wall::Open | Wall::Periodic),
-        -2.0 * scene.radius() as f32,
-    );
-    let edge = edge(scene);
-    for axis in 0..3 {
-        (lower[axis], upper[axis]) = (lower[axis].max(-edge), upper[axis].min(edge));
-    }
-    let by_sound = scene
-        .fluid()
-        .map_or(f64::INFINITY, |fluid| RUNAWAY * fluid.sound_speed);
-    let by_step = match scene.time.adaptive {
-        Some(_) => f64::INFINITY,
-        None => scene.search_radius() / scene.size_ratio() / scene.time.step,
-    };
-    upper[3] = by_sound.min(by_step).powi(2).min(f32::MAX.into()) as f32;
-    (lower, upper)
 }
 
 fn measure(scene: &Scene, grains: &scene::Grains, grid: &Grid) -> Measure {

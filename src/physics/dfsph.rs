@@ -18,9 +18,10 @@ use super::fluid::{
 use super::implicit_viscosity;
 use super::kernels;
 use super::layout::{Convergence, Dfsph, Fluid, PACKED_BYTES};
-use super::model::{Fault, Model, Request, Solver, Written};
+use super::model::{Model, Request, Solver, Written};
 use super::sensors;
 use crate::gpu::{BufferPlan, Items, PassPlan, Repeat, Variant};
+use crate::guards::Family;
 use crate::neighbors::storage;
 use crate::scene::model::{FluidSolver, Slip, Wall};
 use crate::scene::{self, Matter, Scene};
@@ -51,11 +52,7 @@ pub(super) const MODEL: Model = Model {
     plan,
     sense_walls: ("physics/dfsph/sense_walls", true),
     parameters,
-    fault: Fault {
-        too_long_for: "the fluid's speed",
-        shorter: "lower fluid.courant_number or time.step",
-        lost: "lower fluid.courant_number",
-    },
+    family: Family::Incompressible,
     ..fluid::MODEL
 };
 

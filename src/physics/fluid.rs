@@ -10,8 +10,9 @@ use super::dem::{bounds, has_wall};
 use super::formulas::{self, DENSITY, FORCES, Terms};
 use super::kernels;
 use super::layout::{Fluid, Material, Measure, PACKED_BYTES, Packed, Planes, Rim, Sums};
-use super::model::{Fault, FromState, Model, OwnFigures, Request, Solver, Written};
+use super::model::{FromState, Model, OwnFigures, Request, Solver, Written};
 use crate::gpu::{BufferPlan, Items, PassPlan, Variant};
+use crate::guards::Family;
 use crate::neighbors::lists;
 use crate::scene::boundary::NO_BODY;
 use crate::scene::model::{
@@ -45,7 +46,7 @@ pub(super) const MODEL: Model = Model {
     from_state: FROM_STATE,
     particle_mass,
     sense_walls: ("physics/fluid/sense_walls", false),
-    fault: FAULT,
+    family: Family::WeaklyCompressible,
 };
 
 pub(super) const FIGURES: &[&str] = &[
@@ -55,11 +56,6 @@ pub(super) const FIGURES: &[&str] = &[
     "clamped_pressures",
     "clamped_densities",
 ];
-pub(super) const FAULT: Fault = Fault {
-    too_long_for: "the fluid's speed",
-    shorter: "raise fluid.max_speed, lower time.step, or set time.adaptive",
-    lost: "raise fluid.max_speed",
-};
 /// `fluid_state` holds ρ/ρ₀ − 1 and the pressure, Pa.
 pub(super) const FROM_STATE: &[FromState] = &[
     FromState {
@@ -174,6 +170,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
     // Periodic sides take boundary particles beyond them back with their first move.
     let rests = knows_reach && !moving && scene.domain.period() == Vec3::ZERO;
     let planes = has_wall(scene, Wall::Planes);
+    let faces = planes || has_wall(scene, Wall::Particles);
     let rim = has_wall(scene, Wall::Particles) && has_wall(scene, Wall::Open);
     let several = scene.has_field("material");
     let tension = terms.surface_tension;
@@ -198,6 +195,7 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         .flag("shifting", terms.shifting)
         .flag("matrices", terms.need_matrices())
         .flag("planes", planes)
+        .flag("faces", faces)
         .flag("rim", rim)
         .flag("statistics", statistics);
     formulas::list("force", FORCES, &terms, variant);
@@ -227,8 +225,8 @@ fn plan(request: &Request, variant: &mut Variant) -> Solver {
         let why = "sides of the domain beyond which the fluid goes on";
         buffers.push(BufferPlan::constant("planes", &planes_of(scene, fluid), why));
     }
-    if rim {
-        let why = "where closed sides go on beyond open ones";
+    if faces {
+        let why = "closed sides, and where they go on beyond open ones";
         buffers.push(BufferPlan::constant("rim", &rim_of(scene, fluid), why));
     }
     if several {
@@ -435,7 +433,11 @@ fn planes_of(scene: &Scene, fluid: &scene::fluid::Fluid) -> Planes {
 /// Sides of boundary particles, half a spacing inside, and open ones.
 pub(super) fn rim_of(scene: &Scene, fluid: &scene::fluid::Fluid) -> Rim {
     let inset = 0.5 * fluid.spacing as f32;
-    let (lower, upper) = bounds(scene, |wall| wall == Wall::Particles, inset);
+    let (lower, upper) = bounds(
+        scene,
+        |wall| matches!(wall, Wall::Particles | Wall::Planes),
+        inset,
+    );
     let (open_lower, open_upper) = bounds(scene, |wall| wall == Wall::Open, 0.0);
     Rim {
         lower,

@@ -95,33 +95,60 @@ shared_struct! {
 
 shared_struct! {
     pub struct Guard {
-        /// Metres; beyond it a particle is lost.
+        /// Metres; beyond it a particle is lost. The fourth: where single precision ends.
         pub lower: [f32; 4],
-        /// The fourth: square of the speed beyond which a particle has run away, m²/s².
+        /// The fourth: square of the speed beyond which a particle is too fast, m²/s².
         pub upper: [f32; 4],
-        /// Of the first particle caught, metres.
-        pub position: [f32; 4],
-        /// m/s.
-        pub velocity: [f32; 4],
-        pub id: u32,
+        /// Square of the speed beyond which a fluid has run away, m²/s².
+        pub runaway: f32,
+        /// Of the first accidents.
         pub step: u32,
-        /// [`Guard::NOT_FINITE`], [`Guard::LOST`], [`Guard::RAN_AWAY`] or [`Guard::CROWDED`].
-        pub kind: u32,
+        /// Accidents until now.
         pub count: u32,
+        /// Lowest [`Accident::order`] among those of that step.
+        pub lowest: u32,
+        /// How many of them were lower than all before.
+        pub noted: u32,
         /// Of the step.
         pub extremes: Extremes,
         /// Not zero: a particle has moved so far that a neighbor may be missing from a list.
         pub far: u32,
+        pub _pad: [u32; 3],
+        /// Those, in no order.
+        pub accidents: [Accident; Guard::ACCIDENTS],
+    }
+}
+
+shared_struct! {
+    /// What a guard caught.
+    pub struct Accident {
+        /// Before the step, metres.
+        pub position: [f32; 4],
+        /// After it, m/s.
+        pub velocity: [f32; 4],
+        pub id: u32,
+        /// [`crate::guards::GuardKind::code`].
+        pub kind: u32,
+        /// The accident with the lowest one is told.
+        pub order: u32,
+        pub _pad: u32,
     }
 }
 
 impl Guard {
-    pub const NOT_FINITE: u32 = 1;
-    pub const LOST: u32 = 2;
-    pub const RAN_AWAY: u32 = 3;
-    pub const CROWDED: u32 = 4;
+    /// Accidents that a step has room for. Orders are at random, so that of n accidents the logarithm of n are lower than all
+    /// before.
+    pub const ACCIDENTS: usize = 32;
     /// Stands in `step` as long as nothing was caught.
     pub const NO_STEP: u32 = u32::MAX;
+
+    /// The accident to tell of, which is the same one in every run.
+    pub fn told(&self) -> Option<&Accident> {
+        let noted = (self.noted as usize).min(Self::ACCIDENTS);
+        self.accidents[..noted]
+            .iter()
+            .min_by_key(|accident| accident.order)
+    }
 }
 
 shared_struct! {
@@ -539,6 +566,7 @@ pub const SHARED: &[SharedLayout] = &[
     Extremes::LAYOUT,
     StepControlLimits::LAYOUT,
     Guard::LAYOUT,
+    Accident::LAYOUT,
     ContactWalls::LAYOUT,
     ClampWalls::LAYOUT,
     Contact::LAYOUT,

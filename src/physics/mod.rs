@@ -8,6 +8,7 @@ pub mod fields;
 mod floating;
 pub mod fluid;
 pub mod formulas;
+pub mod guard;
 mod implicit_viscosity;
 pub mod kernels;
 pub mod layout;

@@ -4,6 +4,7 @@ use super::collider::Obstacles;
 use super::layout::Sums;
 use super::{dem, dfsph, fluid};
 use crate::gpu::{BufferPlan, PassPlan, Variant};
+use crate::guards::Family;
 use crate::neighbors::Grid;
 use crate::scene::column::{Column, Source};
 use crate::scene::{Matter, Scene};
@@ -32,8 +33,8 @@ pub struct Model {
     /// Shader that finds what particles do to walls and obstacles, for sensors; and whether that is known only while a step is
     /// made, where its solver runs the pass itself.
     pub sense_walls: (&'static str, bool),
-    /// What it says of a particle that went wrong.
-    pub fault: Fault,
+    /// Where something goes wrong.
+    pub family: Family,
 }
 
 /// Every solver there is.
@@ -121,15 +122,4 @@ pub struct FromState {
     pub width: usize,
     /// From these numbers and the index of the particle's material.
     pub value: fn(&Scene, &[f32], material: usize) -> f32,
-}
-
-/// What a solver says of a particle that went wrong.
-#[derive(Debug)]
-pub struct Fault {
-    /// What a step was too long for where numbers are not finite.
-    pub too_long_for: &'static str,
-    /// What makes steps shorter.
-    pub shorter: &'static str,
-    /// What to do where particles leave through a closed side.
-    pub lost: &'static str,
 }

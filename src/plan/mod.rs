@@ -14,10 +14,12 @@ use crate::error::{Error, Result};
 use crate::gpu::compose::{GROUP_SIZE, SCAN_ITEMS, SCAN_THREADS};
 use crate::gpu::pass::{INDEX_STRIDE, fold};
 use crate::gpu::{BufferPlan, DISPATCHES, Demand, Items, Limits, Over, PassPlan, Variant};
+use crate::guards::GUARDS;
 use crate::neighbors::{self, Grid, Room, lists};
 use crate::physics::collider::Obstacles;
+use crate::physics::guard::guard;
 use crate::physics::layout::{Clock, Guard, Occupancy, Parameters, Sums};
-use crate::physics::{self, Model, Request, dem, fields, sensors, step_control};
+use crate::physics::{self, Model, Request, fields, sensors, step_control};
 use crate::render;
 use crate::scene::column::{Column, Source};
 use crate::scene::field::Kind;
@@ -39,6 +41,8 @@ pub struct Wanted {
     pub voxel_map: Option<u32>,
     /// What the scene's sensors find.
     pub sensors: bool,
+    /// That nothing watches particles, to measure what guards cost.
+    pub unguarded: bool,
 }
 
 /// When a pass runs.
@@ -209,11 +213,15 @@ impl Plan {
         let mut variant = Variant::default();
         variant
             .flag("two_dimensional", scene.dimensions == Dimensions::Two)
+            .flag("unguarded", wanted.unguarded)
             .constant("DIMENSIONS", scene.dimensions.count() as u32)
-            .constant("GUARD_NOT_FINITE", Guard::NOT_FINITE)
-            .constant("GUARD_LOST", Guard::LOST)
-            .constant("GUARD_RAN_AWAY", Guard::RAN_AWAY)
-            .constant("GUARD_NO_STEP", Guard::NO_STEP);
+            .constant("GUARD_NO_STEP", Guard::NO_STEP)
+            .constant("ACCIDENTS", Guard::ACCIDENTS as u32);
+        for row in &GUARDS {
+            if let Some(name) = row.constant {
+                variant.constant(name, row.kind.code());
+            }
+        }
 
         let mut columns = wanted.columns.clone();
         let colored = scene.color.column;
@@ -521,13 +529,7 @@ fn column_bytes(scene: &Scene, column: &Column) -> u64 {
 
 /// Buffers of every simulation besides its particles' fields.
 fn state_buffers(scene: &Scene) -> Vec<BufferPlan> {
-    let (lower, upper) = dem::guard_bounds(scene);
-    let guard = Guard {
-        lower,
-        upper,
-        step: Guard::NO_STEP,
-        ..Default::default()
-    };
+    let guard = guard(scene);
     vec![
         BufferPlan::uniform(
             "parameters",
@@ -544,7 +546,7 @@ fn state_buffers(scene: &Scene) -> Vec<BufferPlan> {
         BufferPlan::table(
             "guard",
             &[guard],
-            "what moves note of particles: the first one that went wrong, the fastest one",
+            "what moves note of particles: those that went wrong first, the fastest one",
         )
         .reported(),
     ]

@@ -157,9 +157,14 @@ pub struct Measured {
 impl Measured {
     /// With frames of so many steps, of adaptive ones about as many; two of them are past, so that shaders are compiled.
     pub fn new(bench: &Bench, scene: &Scene, steps: u32) -> Result<Self> {
+        Self::wanting(bench, scene, steps, &Wanted::default())
+    }
+
+    /// The same with what else a plan is asked for.
+    pub fn wanting(bench: &Bench, scene: &Scene, steps: u32, wanted: &Wanted) -> Result<Self> {
         let scene = scene.with_steps_per_frame(steps);
         let gpu = bench.gpu()?;
-        let plan = Plan::new(&scene, &gpu.limits, &Wanted::default())?.with_its_lists()?;
+        let plan = Plan::new(&scene, &gpu.limits, wanted)?.with_its_lists()?;
         let is_search = |shader: &str| shader.starts_with("cells/") || shader.starts_with("storage/");
         let search = plan
             .passes

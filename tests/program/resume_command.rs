@@ -9,13 +9,46 @@ use std::time::Duration;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore as _, SeedableRng as _};
+use serde_json::{Value, json};
+
+/// Scenes that are killed: what each adds to grains that meet an obstacle, of what may be lost between two frames.
+const KILLED: [(&str, fn(&mut Value)); 4] = [
+    ("grains", |_| {}),
+    // Contacts have a history.
+    ("grains that rub", |scene| {
+        scene["grains"]["law"] = json!("linear");
+        scene["grains"]["friction"] = json!(0.4);
+        scene["grains"]["rolling_friction"] = json!(0.1);
+    }),
+    ("rigid bodies", |scene| {
+        scene["grains"]["law"] = json!("linear");
+        scene["grains"]["friction"] = json!(0.4);
+        scene["bodies"][0]["shape"]["max"] = json!([0.1, 0.1]);
+        let crates = json!({
+            "shape": { "kind": "box", "min": [-0.2, 0.15], "max": [-0.1, 0.25] },
+            "rigid": { "copies": { "counts": [2, 1], "step": [0.15, 0] } }
+        });
+        scene["bodies"].as_array_mut().expect("bodies").push(crates);
+    }),
+    ("water", |scene| {
+        let scene = scene.as_object_mut().expect("an object");
+        scene.remove("grains");
+        scene.insert("fluid".into(), json!({ "solver": "dfsph", "spacing": 0.02 }));
+        scene["bodies"] = json!([{ "shape": { "kind": "box", "min": [-0.3, 0], "max": [0.1, 0.3] } }]);
+        scene["time"].as_object_mut().expect("times").remove("integrator");
+    }),
+];
 
 use crate::place::{FRAMES, Place, start, wait_for};
 
 /// Kills a run, and what goes on with it, `kills` times; the end is the bytes of a run that nobody killed. Each is killed
 /// when there are so many files of it, whole or half-written, at random.
-fn kill_and_resume(kills: u32, seed: u64) {
+fn kill_and_resume((name, change): (&str, fn(&mut Value)), kills: u32, seed: u64) {
     let place = Place::new();
+    let file = place.path("scene.json");
+    let mut scene: Value = serde_json::from_slice(&fs::read(&file).unwrap()).unwrap();
+    change(&mut scene);
+    fs::write(&file, scene.to_string()).unwrap();
     place.told(&mut place.run("whole", &[]), 0);
     let files = |out: &str| walk(&place.path(out));
     let all = files("whole");
@@ -52,7 +85,7 @@ fn kill_and_resume(kills: u32, seed: u64) {
                 break;
             }
         }
-        place.assert_same("whole", &out, &format!("seed {seed}, round {round}"));
+        place.assert_same("whole", &out, &format!("{name}, seed {seed}, round {round}"));
         let manifest = place.manifest(&out);
         assert_eq!(
             (&manifest["status"], &manifest["frames_done"]),
@@ -77,7 +110,22 @@ fn walk(folder: &Path) -> usize {
 
 #[test]
 fn killed_at_random_moments_it_comes_to_the_same_bytes() {
-    kill_and_resume(12, 1);
+    for scene in KILLED {
+        kill_and_resume(scene, 4, 1);
+    }
+}
+
+/// `cargo test --release --test resume_command -- --ignored --nocapture`; SLICEFLOW_KILLS says how many of each scene, and
+/// SLICEFLOW_SEED when.
+#[test]
+#[ignore = "takes minutes"]
+fn killed_a_hundred_times_it_comes_to_the_same_bytes() {
+    let number = |name: &str| -> Option<u64> { std::env::var(name).ok()?.parse().ok() };
+    let kills = number("SLICEFLOW_KILLS").unwrap_or(25) as u32;
+    for scene in KILLED {
+        kill_and_resume(scene, kills, number("SLICEFLOW_SEED").unwrap_or(2));
+        println!("{}: killed {kills} times, the same bytes", scene.0);
+    }
 }
 
 /// From its first file on a run can be resumed, and before it nothing keeps the same command from running again.

@@ -347,19 +347,22 @@ fn stability_has_a_page_with_the_same_figures_as_its_json() {
         );
     }
     assert_eq!((rows.len(), told), (8, 5));
-    // Every verdict that fails is listed.
-    let fails = |key: &str| {
-        let rows = json[key].as_array().expect("rows");
-        let columns = ["verdict", "fixed steps", "adaptive steps"];
-        let verdicts = rows
-            .iter()
-            .flat_map(|row| columns.iter().filter_map(|&column| row[column].as_str()));
-        verdicts.filter(|verdict| verdict.starts_with("fails")).count()
-    };
-    assert_eq!(
-        json["failing"].as_array().map(Vec::len),
-        Some(fails("rests") + fails("hard"))
-    );
+    // Every verdict that is not good is listed.
+    for (begins, list) in [("fails", "failing"), ("stopped", "stopped")] {
+        let bad = |key: &str| {
+            let rows = json[key].as_array().expect("rows");
+            let columns = ["verdict", "fixed steps", "adaptive steps"];
+            let verdicts = rows
+                .iter()
+                .flat_map(|row| columns.iter().filter_map(|&column| row[column].as_str()));
+            verdicts.filter(|verdict| verdict.starts_with(begins)).count()
+        };
+        assert_eq!(
+            json[list].as_array().map(Vec::len),
+            Some(bad("rests") + bad("hard")),
+            "{list}"
+        );
+    }
 }
 
 #[test]

@@ -19,16 +19,6 @@
 
 var<storage, read> contact_acceleration: array<Motion>;
 
-// A grain touches more than it can remember.
-fn catch_crowded(slot: u32, x: Vector, v: Vector) {
-    if atomicAdd(&guard.count, 1u) == 0u {
-        guard.id = slot;
-        guard.kind = GUARD_CROWDED;
-        guard.position = vec4f(to_3d(x), 0.0);
-        guard.velocity = vec4f(to_3d(v), 0.0);
-    }
-}
-
 @compute @workgroup_size(GROUP_SIZE)
 fn leap_grains(thread: Thread) {
     let i = item_index(thread);
@@ -41,7 +31,7 @@ fn leap_grains(thread: Thread) {
     let slots = number_of(contact_acceleration[i].angular);
     if slots < 0.0 {
         if -1.0 - slots > f32(CONTACT_SLOTS) {
-            catch_crowded(i, x, Vector(0.0));
+            note_accident(i, GUARD_CROWDED, x, Vector(0.0));
         }
         next_half_step[i] = HalfStep();
         return;
@@ -56,8 +46,9 @@ fn leap_grains(thread: Thread) {
     var moved = clamp(x + way, Vector(-contact.farthest), Vector(contact.farthest));
     let rest = way - (moved - x);
     watch(i, x, &moved, &v);
+    // It touches more than it can remember.
     if number_of(contact_acceleration[i].angular) > f32(CONTACT_SLOTS) {
-        catch_crowded(i, x, v);
+        note_accident(i, GUARD_CROWDED, x, v);
     }
     next_half_step[i].velocity = pack_with(v, dt);
     next_half_step[i].rest = pack(rest);

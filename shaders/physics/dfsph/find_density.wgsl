@@ -3,6 +3,7 @@
 #flag writes_state
 #import common/thread
 #import physics/fluid/pairs
+#import physics/fluid/apart
 #import physics/fluid/state
 #import physics/dfsph/loop
 #import physics/dfsph/own
@@ -55,7 +56,7 @@ fn find_density(thread: Thread) {
         let range = candidate_range(home, k);
         for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
             let j = candidate(slot);
-            let s = toward(x, j);
+            let s = apart(toward(x, j), i, j);
             let r = length(s);
             sum += kernel(r);
             let steepness = dfsph.slope_volume * kernel_slope(r);

@@ -14,11 +14,7 @@
 #import fields/velocity/pack
 #import fields/next_correction/write
 #import physics/dfsph/own
-#if boundary_particles
-#import fields/id
-#end
 #if faces
-#import physics/fluid/coefficients
 #import physics/fluid/rim
 #end
 #if adaptive_step
@@ -41,16 +37,7 @@ fn move_fluid(thread: Thread) {
     var v = unpack(next_velocity[i]);
     var moved = wrapped(x + time_step() * unpack(next_position[i]));
 #if faces
-    // One layer of boundary particles holds the fluid; what is thrown against it all the same stops at the wall's face.
-    let margin = 0.4 * fluid.spacing; // of the half spacing that `rim` lies inside
-    let kept = clamp(moved, first(rim.lower) - margin, first(rim.upper) + margin);
-#if rim
-    let outside = any(moved < first(rim.open_lower)) || any(moved > first(rim.open_upper));
-#else
-    let outside = false;
-#end
-    v = select(select(Vector(0.0), v, kept == moved), v, outside);
-    moved = select(kept, moved, outside);
+    stop_at_faces(BEFORE_FACE, &moved, &v);
 #if rim
     keep_within_rim(&moved, &v);
 #end

@@ -7,7 +7,7 @@
 #import physics/fluid/material
 #import physics/fluid/pair_state
 #import physics/fluid/next
-#if rim
+#if faces
 #import physics/fluid/rim
 #end
 #if adaptive_step
@@ -32,8 +32,11 @@ fn drift_fluid(thread: Thread) {
     let a = unpack(acceleration[i]);
     var v = unpack(velocity[i]) + dt * a;
     var moved = wrapped(x + dt * (v - 0.5 * dt * a));
+#if faces
+    stop_at_faces(FACE, &moved, &v);
 #if rim
     keep_within_rim(&moved, &v);
+#end
 #end
     watch(i, x, &moved, &v);
     leave_fluid(i, moved, v, deviation);

@@ -5,6 +5,7 @@
 // Knows nothing of the grid behind `<candidates>`.
 #import physics/time_step
 #import physics/fluid/pairs
+#import physics/fluid/apart
 #import physics/fluid/material
 #import physics/fluid/state
 #import physics/fluid/pair_state
@@ -76,7 +77,7 @@ fn forces_on(i: u32) -> Forces {
 #else
             if within(s, fluid.support) && j != i {
 #end
-                let other = neighbor_at(j, s, theirs);
+                let other = neighbor_at(j, apart(s, i, j), theirs);
 #each force {force}_pair
                 {force}_pair(own, other, &forces);
 #end

@@ -5,7 +5,7 @@
 #import physics/guard
 #import physics/fluid/forces
 #import physics/fluid/next
-#if rim
+#if faces
 #import physics/fluid/rim
 #end
 #if adaptive_step
@@ -32,8 +32,11 @@ fn move_fluid(thread: Thread) {
     deviation += dot(forces.shifting.deviation_slope, displacement);
 #end
     moved = wrapped(moved);
+#if faces
+    stop_at_faces(FACE, &moved, &v);
 #if rim
     keep_within_rim(&moved, &v);
+#end
 #end
     watch(i, x, &moved, &v);
     leave_fluid(i, moved, v, deviation);

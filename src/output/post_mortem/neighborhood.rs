@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::Violation;
+use crate::guards::GuardKind;
 use crate::scene::Scene;
 use crate::simulation::State;
 
@@ -171,7 +172,7 @@ impl<'a> Columns<'a> {
         let deviation = |slot: usize| self.fluid.get(slot).map_or(0.0, |state| state[0].abs());
         let speed = |slot: usize| self.velocity[slot].length();
         match violation.guard {
-            "density" if !self.fluid.is_empty() => free
+            GuardKind::Density if !self.fluid.is_empty() => free
                 .max_by(|&a, &b| deviation(a).total_cmp(&deviation(b)))
                 .map(|slot| (slot, "the density that is farthest from that at rest")),
             _ => free
@@ -251,6 +252,7 @@ fn nearest(scene: &Scene, way: Vec3) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::guards::Family;
 
     const SCENE: &str = r#"{
         "dimensions": 2,
@@ -274,16 +276,15 @@ mod tests {
         velocity[0] = Vec3::X;
         let state = State::of_particles(&scene, 3, &global, &velocity, None);
         let violation = Violation {
-            guard: "energy",
+            guard: GuardKind::Energy,
+            family: Family::WeaklyCompressible,
+            detail: String::new(),
             frame: 4,
             step: 1,
             time: 0.0,
             step_s: 0.0,
             step_limited_by: "",
             particle: None,
-            what: String::new(),
-            likely_cause: String::new(),
-            help: String::new(),
         };
         let found = Neighborhood::new(&scene, &state, &violation).unwrap();
         assert_eq!(

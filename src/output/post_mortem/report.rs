@@ -16,15 +16,14 @@ pub struct Report {
     program: &'static str,
     /// Version of the program.
     version: &'static str,
-    /// The guard, in one word: `not_finite`, `lost`, `edge`, `runaway`, `too_fast`, `crowded`, `stalled_step`, `energy`,
-    /// `density`, `overlap`, `overflow` or `unconverged`.
+    /// The guard, in one word ([which there are](guards.md)).
     guard: &'static str,
     /// What it found.
-    what: String,
+    what: &'static str,
     /// Why that happens most often.
     likely_cause: String,
     /// What to change.
-    help: String,
+    help: &'static str,
     /// The frame that was about to be written.
     frame: u32,
     /// Steps since the run began.
@@ -96,10 +95,10 @@ impl Report {
         Self {
             program: env!("CARGO_PKG_NAME"),
             version: env!("CARGO_PKG_VERSION"),
-            guard: violation.guard,
-            what: violation.what.clone(),
-            likely_cause: violation.likely_cause.clone(),
-            help: violation.help.clone(),
+            guard: violation.guard.row().word,
+            what: violation.what(),
+            likely_cause: violation.likely_cause(),
+            help: violation.help(),
             frame: violation.frame,
             step: violation.step,
             time_s: violation.time,

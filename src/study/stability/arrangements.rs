@@ -4,9 +4,9 @@
 use glam::Vec3;
 use serde_json::{Value, json};
 
-use super::hard::{Case, Outcome, Tried, kept};
+use super::hard::{Case, Tried, kept, part};
 use super::methods::{EXPECTED, SPACING, block};
-use super::trial::{lost, run};
+use super::trial::{Outcome, Trouble, lost, run};
 use crate::error::Result;
 use crate::scene::Scene;
 use crate::study::bench::Bench;
@@ -14,8 +14,6 @@ use crate::study::page::shown;
 
 /// Distance of a pair, in spacings.
 const NEARLY: f64 = 1e-7;
-/// A pair that began so near has come apart by this share of the spacing.
-const APART: f64 = 0.2;
 /// Of the bullet, in expected speeds.
 const BULLET: f64 = 50.0;
 /// Metres from zero.
@@ -56,18 +54,10 @@ pub fn about() -> String {
 const DRIFT: f64 = 1e-3;
 
 fn pair(bench: &Bench, tried: Tried, steps: u32) -> Result<Outcome> {
-    let mut scene = tried
+    let scene = tried
         .method
         .scene(block([0.4, 0.0], 8, 8), |file| tried.expect(file))?;
-    scene.particles.position[27] = scene.particles.position[28] + Vec3::X * (NEARLY * SPACING) as f32;
-    Ok(run(bench, &scene, steps, 1)?.and_then(|trial| {
-        let apart = trial.last.position[27].distance(trial.last.position[28]);
-        let apart = f64::from(apart) / SPACING;
-        match apart > APART {
-            true => Ok(()),
-            false => Err(format!("they are {} spacings apart", shown(apart))),
-        }
-    }))
+    part(bench, scene, [27, 28], Vec3::X * (NEARLY * SPACING) as f32, steps)
 }
 
 fn line(bench: &Bench, tried: Tried, steps: u32) -> Result<Outcome> {
@@ -98,7 +88,7 @@ fn overlapping(bench: &Bench, tried: Tried, steps: u32) -> Result<Outcome> {
     Ok(
         run(bench, &scene, steps, 1)?.and_then(|trial| match lost(&scene, &trial.last) {
             0 => Ok(()),
-            lost => Err(format!("{lost} particles are lost")),
+            lost => Err(Trouble::Wrong(format!("{lost} particles are lost"))),
         }),
     )
 }
@@ -135,7 +125,10 @@ fn drift(bench: &Bench, tried: Tried, steps: u32) -> Result<Outcome> {
         let off = (way - glam::DVec3::X * EXPECTED * time).length() / (EXPECTED * time);
         match off < DRIFT {
             true => Ok(()),
-            false => Err(format!("its center is off by {} of its way", shown(off))),
+            false => Err(Trouble::Wrong(format!(
+                "its center is off by {} of its way",
+                shown(off)
+            ))),
         }
     }))
 }
@@ -187,7 +180,10 @@ fn far(bench: &Bench, tried: Tried, steps: u32) -> Result<Outcome> {
         let moved = places.map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
         match moved < 1e-8 && near.last.velocity == far.last.velocity {
             true => Ok(()),
-            false => Err(format!("it moves otherwise, by {} m", shown(moved.into()))),
+            false => Err(Trouble::Wrong(format!(
+                "it moves otherwise, by {} m",
+                shown(moved.into())
+            ))),
         }
     }))
 }

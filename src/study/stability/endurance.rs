@@ -1,7 +1,7 @@
 //! Still water and a resting pile over many steps.
 
-use super::methods::{FLUIDS, GRAINS, Method, SPACING, block};
-use super::trial::{Trial, lost, run};
+use super::methods::{Method, SPACING, block, with_fixed_steps};
+use super::trial::{Outcome, Trial, Trouble, lost, run};
 use super::{Failures, Scale};
 use crate::error::Result;
 use crate::output::plot::Plot;
@@ -47,18 +47,18 @@ pub fn rests(page: &mut Page, bench: &Bench, scale: &Scale, failures: &mut Failu
         "verdict",
     ]);
     let mut chart = Plot::new("Kinetic energy at rest", "time, s", "kinetic energy, J").log_y();
-    for method in FLUIDS.into_iter().chain(GRAINS) {
+    for method in with_fixed_steps() {
         bench.tell(&format!(
             "stability: {} rests for {} steps",
-            method.name(),
+            method.name,
             count(scale.long.into())
         ));
         let scene = resting(method)?;
-        let name = format!("{} at rest", method.name());
+        let name = format!("{} at rest", method.name);
         let trial = match run(bench, &scene, scale.long.div_ceil(INTERVALS), INTERVALS)? {
             Ok(trial) => trial,
             Err(why) => {
-                let mut row = vec![Cell::text(method.name())];
+                let mut row = vec![Cell::text(method.name)];
                 row.resize(10, Cell::Nothing);
                 row.push(failures.verdict(&name, &Err(why)));
                 table.row(row);
@@ -71,7 +71,7 @@ pub fn rests(page: &mut Page, bench: &Bench, scale: &Scale, failures: &mut Failu
             Cell::maybe(figures.density_error.map(|[mean, _]| mean))
         };
         table.row([
-            Cell::text(method.name()),
+            Cell::text(method.name),
             Cell::count(scale.long.into()),
             Cell::number(scene.time.step * 1e6),
             Cell::number(settled.kinetic_energy),
@@ -84,7 +84,7 @@ pub fn rests(page: &mut Page, bench: &Bench, scale: &Scale, failures: &mut Failu
             failures.verdict(&name, &seen.verdict()),
         ]);
         chart = chart.series(
-            method.name(),
+            method.name,
             trial.moments.iter().map(|m| (m.time, m.figures.kinetic_energy)),
         );
     }
@@ -97,7 +97,7 @@ pub fn rests(page: &mut Page, bench: &Bench, scale: &Scale, failures: &mut Failu
 fn resting(method: Method) -> Result<Scene> {
     let columns = 20;
     let mut body = block([0.0; 2], columns, ROWS);
-    if method == FLUIDS[1] {
+    if method.begins_with_pressure {
         body["pressure"] = "hydrostatic".into();
     }
     method.scene(body, |file| {
@@ -130,7 +130,7 @@ impl<'a> Seen<'a> {
         }
     }
 
-    fn verdict(&self) -> std::result::Result<(), String> {
+    fn verdict(&self) -> Outcome {
         let density = self.end.figures.density_error.map_or(0.0, |[mean, _]| mean);
         let mut why = Vec::new();
         if self.lost > 0 {
@@ -148,7 +148,7 @@ impl<'a> Seen<'a> {
         if why.is_empty() {
             Ok(())
         } else {
-            Err(why.join(", "))
+            Err(Trouble::Wrong(why.join(", ")))
         }
     }
 }

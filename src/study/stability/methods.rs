@@ -4,7 +4,6 @@ use serde_json::{Value, json};
 
 use crate::error::Result;
 use crate::scene::Scene;
-use crate::scene::model::Integrator;
 use crate::study::scenes::parse;
 
 /// Distance of particles in all scenes here, metres; grains have this diameter.
@@ -18,101 +17,131 @@ const DENSITY: f64 = 1000.0;
 /// Of grains.
 pub const RESTITUTION: f64 = 0.5;
 
-#[derive(Clone, Copy, PartialEq)]
-pub enum Method {
-    Fluid {
-        name: &'static str,
-        solver: &'static str,
-        density_from: &'static str,
-    },
-    Grains {
-        name: &'static str,
-        integrator: Integrator,
-    },
+/// A solver as it is tried here: a row of [`METHODS`].
+#[derive(Clone, Copy)]
+pub struct Method {
+    pub name: &'static str,
+    pub is_fluid: bool,
+    /// Whether its steps have one length unless a scene asks for others. Those without have no speed of sound that would limit
+    /// such a step.
+    pub has_fixed_steps: bool,
+    /// Whether still water has to begin with the pressure of its depth.
+    pub begins_with_pressure: bool,
+    /// Puts the matter into the scene.
+    matter: fn(&mut Value),
 }
 
-pub const FLUIDS: [Method; 3] = [
-    fluid("sph", "sph", "summation"),
-    fluid("wcsph, continuity", "wcsph", "continuity"),
-    fluid("wcsph, summation", "wcsph", "summation"),
+pub const METHODS: [Method; 6] = [
+    Method {
+        name: "sph",
+        is_fluid: true,
+        has_fixed_steps: true,
+        begins_with_pressure: false,
+        matter: |file| fluid(file, json!({ "solver": "sph", "density_from": "summation" })),
+    },
+    Method {
+        name: "wcsph, continuity",
+        is_fluid: true,
+        has_fixed_steps: true,
+        begins_with_pressure: true,
+        matter: |file| fluid(file, json!({ "solver": "wcsph", "density_from": "continuity" })),
+    },
+    Method {
+        name: "wcsph, summation",
+        is_fluid: true,
+        has_fixed_steps: true,
+        begins_with_pressure: false,
+        matter: |file| fluid(file, json!({ "solver": "wcsph", "density_from": "summation" })),
+    },
+    Method {
+        name: "dfsph",
+        is_fluid: true,
+        has_fixed_steps: false,
+        begins_with_pressure: false,
+        matter: |file| fluid(file, json!({ "solver": "dfsph" })),
+    },
+    Method {
+        name: "DEM, symplectic Euler",
+        is_fluid: false,
+        has_fixed_steps: true,
+        begins_with_pressure: false,
+        matter: |file| grains(file, "symplectic_euler"),
+    },
+    Method {
+        name: "DEM, velocity Verlet",
+        is_fluid: false,
+        has_fixed_steps: true,
+        begins_with_pressure: false,
+        matter: |file| grains(file, "velocity_verlet"),
+    },
 ];
 
-/// Has no steps of one length, and no sound.
-pub const INCOMPRESSIBLE: Method = fluid("dfsph", "dfsph", "summation");
-
-pub const GRAINS: [Method; 2] = [
-    grains("DEM, symplectic Euler", Integrator::SymplecticEuler),
-    grains("DEM, velocity Verlet", Integrator::VelocityVerlet),
-];
-
-const fn fluid(name: &'static str, solver: &'static str, density_from: &'static str) -> Method {
-    Method::Fluid {
-        name,
-        solver,
-        density_from,
-    }
+/// Those whose longest stable step can be asked for.
+pub fn with_fixed_steps() -> impl Iterator<Item = Method> {
+    METHODS.into_iter().filter(|method| method.has_fixed_steps)
 }
 
-const fn grains(name: &'static str, integrator: Integrator) -> Method {
-    Method::Grains { name, integrator }
+fn fluid(file: &mut Value, mut own: Value) {
+    own["spacing"] = SPACING.into();
+    own["density"] = DENSITY.into();
+    own["artificial_viscosity"] = 0.05.into();
+    file["fluid"] = own;
+}
+
+fn grains(file: &mut Value, integrator: &str) {
+    let radius = SPACING / 2.0;
+    let mass = match file["dimensions"].as_u64() {
+        Some(3) => DENSITY * 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3),
+        _ => DENSITY * std::f64::consts::PI * radius * radius,
+    };
+    // m v² = k δ²
+    let spring = mass * (EXPECTED / (OVERLAP * radius)).powi(2);
+    file["grains"] = json!({
+        "radius": radius, "density": DENSITY, "spring": spring, "restitution": RESTITUTION
+    });
+    file["time"]["integrator"] = integrator.into();
 }
 
 impl Method {
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fluid { name, .. } | Self::Grains { name, .. } => name,
-        }
-    }
-
     /// A scene of this method in the unit square; `change` completes the file.
     pub fn scene(self, body: Value, change: impl FnOnce(&mut Value)) -> Result<Scene> {
+        self.scene_in(json!({ "min": [0, 0], "max": [1, 1] }), 2, body, change)
+    }
+
+    /// The same in the unit cube.
+    pub fn solid_scene(self, body: Value, change: impl FnOnce(&mut Value)) -> Result<Scene> {
+        self.scene_in(json!({ "min": [0, 0, 0], "max": [1, 1, 1] }), 3, body, change)
+    }
+
+    fn scene_in(
+        self,
+        domain: Value,
+        dimensions: u32,
+        body: Value,
+        change: impl FnOnce(&mut Value),
+    ) -> Result<Scene> {
         let mut file = json!({
-            "name": self.name(),
-            "dimensions": 2,
-            "domain": { "min": [0, 0], "max": [1, 1] },
+            "name": self.name,
+            "dimensions": dimensions,
+            "domain": domain,
             "bodies": [body],
             "time": { "fps": 1000 },
         });
-        match self {
-            Self::Fluid {
-                solver, density_from, ..
-            } => {
-                file["fluid"] = json!({
-                    "solver": solver, "spacing": SPACING, "density": DENSITY, "artificial_viscosity": 0.05
-                });
-                if self != INCOMPRESSIBLE {
-                    file["fluid"]["density_from"] = density_from.into();
-                }
-            }
-            Self::Grains { integrator, .. } => {
-                let radius = SPACING / 2.0;
-                let mass = DENSITY * std::f64::consts::PI * radius * radius;
-                // m v² = k δ²
-                let spring = mass * (EXPECTED / (OVERLAP * radius)).powi(2);
-                file["grains"] = json!({
-                    "radius": radius, "density": DENSITY, "spring": spring, "restitution": RESTITUTION
-                });
-                file["time"]["integrator"] = json!(integrator);
-            }
-        }
+        (self.matter)(&mut file);
         change(&mut file);
         parse(&file)
-    }
-
-    /// Whether its steps have one length unless a scene asks for others.
-    pub fn has_fixed_steps(self) -> bool {
-        self != INCOMPRESSIBLE
-    }
-
-    pub fn is_fluid(self) -> bool {
-        matches!(self, Self::Fluid { .. })
     }
 }
 
 /// A block of so many particles.
 pub fn block(low: [f64; 2], columns: u32, rows: u32) -> Value {
+    block_of(low, [columns, rows])
+}
+
+/// A block of so many particles along each axis.
+pub fn block_of<const N: usize>(low: [f64; N], counts: [u32; N]) -> Value {
     // A little more, so that rounding takes no row away.
-    let along = |n: u32| (f64::from(n) + 1e-6) * SPACING;
-    let high = [low[0] + along(columns), low[1] + along(rows)];
-    json!({ "shape": { "kind": "box", "min": low, "max": high } })
+    let along = |axis: usize| low[axis] + (f64::from(counts[axis]) + 1e-6) * SPACING;
+    let high: Vec<f64> = (0..N).map(along).collect();
+    json!({ "shape": { "kind": "box", "min": low.to_vec(), "max": high } })
 }

@@ -1,7 +1,7 @@
 //! The longest stable time step of each solver, by bisection, beside theory.
 
 use super::Scale;
-use super::methods::{EXPECTED, FLUIDS, GRAINS, Method, SPACING, block};
+use super::methods::{EXPECTED, Method, SPACING, block, with_fixed_steps};
 use super::theory;
 use super::trial::{Trial, lost, run};
 use crate::error::Result;
@@ -116,13 +116,14 @@ pub fn longest(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
 
 fn cases(scale: &Scale) -> Result<Vec<Case>> {
     let mut cases = Vec::new();
-    for method in FLUIDS {
-        cases.push(lattice(method)?);
+    let (fluids, grains): (Vec<_>, Vec<_>) = with_fixed_steps().partition(|method| method.is_fluid);
+    for method in &fluids {
+        cases.push(lattice(*method)?);
     }
-    for method in FLUIDS {
+    for method in fluids {
         cases.push(dam(method, scale.dam_seconds)?);
     }
-    for method in GRAINS {
+    for method in grains {
         cases.push(column(method)?);
     }
     Ok(cases)
@@ -155,7 +156,7 @@ fn lattice(method: Method) -> Result<Case> {
         *deviation = DENSITY_NOISE * (12.9898 * k as f32).sin();
     }
     Ok(Case {
-        method: method.name(),
+        method: method.name,
         scene_name: "lattice",
         theory: scene.fluid().map(theory::sound_limit),
         usual: usual_step(&scene),
@@ -173,7 +174,7 @@ fn dam(method: Method, seconds: f64) -> Result<Case> {
         file["domain"]["max"] = serde_json::json!([1, 0.6]);
     })?;
     Ok(Case {
-        method: method.name(),
+        method: method.name,
         scene_name: "dam",
         theory: None,
         usual: usual_step(&scene),
@@ -193,7 +194,7 @@ fn column(method: Method) -> Result<Case> {
     // What a grain's weight presses a spring at in a time unit of the contact.
     let slow = f64::from(scene.gravity.length()) * (grains.mass / contact.spring).sqrt();
     Ok(Case {
-        method: method.name(),
+        method: method.name,
         scene_name: "column",
         theory: Some(theory::column_limit(
             contact.spring,

@@ -1,7 +1,7 @@
 //! A short run and what is seen of it.
 
 use crate::error::{Error, Result};
-use crate::output::columns_named;
+use crate::output::{Guards, columns_named};
 use crate::plan::Wanted;
 use crate::scene::{Particles, Scene};
 use crate::simulation::Simulation;
@@ -22,6 +22,16 @@ impl Moment {
     }
 }
 
+/// Why a run was no good.
+pub enum Trouble {
+    /// A guard stopped it, and said why: nobody takes its frames for good.
+    Stopped(String),
+    /// Nothing told.
+    Wrong(String),
+}
+
+pub type Outcome<T = ()> = std::result::Result<T, Trouble>;
+
 /// A run that came to its end.
 pub struct Trial {
     pub moments: Vec<Moment>,
@@ -34,12 +44,7 @@ pub struct Trial {
 /// # Errors
 ///
 /// What is wrong with the device, which tells nothing about the solver.
-pub fn run(
-    bench: &Bench,
-    scene: &Scene,
-    steps: u32,
-    frames: u32,
-) -> Result<std::result::Result<Trial, String>> {
+pub fn run(bench: &Bench, scene: &Scene, steps: u32, frames: u32) -> Result<Outcome<Trial>> {
     let mut scene = scene.with_steps_per_frame(steps);
     scene.time.frames = frames + 1;
     let wanted = Wanted {
@@ -49,10 +54,15 @@ pub fn run(
     };
     match tried(bench.simulation(&scene, &wanted)?, &scene) {
         Ok(trial) if trial.moments.iter().any(|m| !m.energy().is_finite()) => {
-            Ok(Err("energy is not finite".into()))
+            Ok(Err(Trouble::Wrong("energy is not finite".into())))
         }
         Err(error @ (Error::Device { .. } | Error::Shader { .. })) => Err(error),
-        other => Ok(other.map_err(|error| first_line(&error))),
+        other => Ok(other.map_err(|error| match &error {
+            Error::Guard(found) => {
+                Trouble::Stopped(format!("`{}`: {}", found.guard.row().word, first_line(&error)))
+            }
+            _ => Trouble::Wrong(first_line(&error)),
+        })),
     }
 }
 
@@ -61,7 +71,11 @@ fn tried(mut simulation: Simulation, scene: &Scene) -> Result<Trial> {
         moments: Vec::new(),
         last: Particles::default(),
     };
+    let mut guards = Guards::default();
     let mut take = |frame: Frame| {
+        if let Some(found) = guards.check(scene, &frame) {
+            return Err(Error::Guard(Box::new(found)));
+        }
         trial.last = particles(scene.origin, &frame);
         if let Some(figures) = frame.statistics {
             trial.moments.push(Moment {
@@ -70,14 +84,15 @@ fn tried(mut simulation: Simulation, scene: &Scene) -> Result<Trial> {
                 figures,
             });
         }
+        Ok(())
     };
     for _ in 0..scene.time.frames {
         if let Some(frame) = simulation.next_frame()? {
-            take(frame);
+            take(frame)?;
         }
     }
     while let Some(frame) = simulation.finish_frame()? {
-        take(frame);
+        take(frame)?;
     }
     Ok(trial)
 }

@@ -168,6 +168,8 @@ fn plans_with_sensors() -> Vec<Plan> {
     let mut plans = Vec::new();
     let wanted = Wanted {
         sensors: true,
+        // As when the cost of guards is measured.
+        unguarded: true,
         ..Wanted::default()
     };
     let mut add = |scene| plans.push(Plan::new(&scene, &Limits::PROMISED, &wanted).expect("a plan"));
