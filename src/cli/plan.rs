@@ -316,7 +316,7 @@ fn solver(fluid: &Fluid) -> String {
             format!("dfsph, the default: incompressible, so steps follow motion and not sound{viscosity}")
         }
         FluidSolver::Wcsph => format!(
-            "wcsph, which the scene asks for: weakly compressible, and {}; it goes {} smoothing lengths in a step, and particles \
+            "wcsph, which the scene asks for: weakly compressible, and {}; sound goes {} smoothing lengths in a step, and particles \
              see {} spacings far",
             sound(),
             number(fluid.sound_share()),
