@@ -316,8 +316,11 @@ fn solver(fluid: &Fluid) -> String {
             format!("dfsph, the default: incompressible, so steps follow motion and not sound{viscosity}")
         }
         FluidSolver::Wcsph => format!(
-            "wcsph, which the scene asks for: weakly compressible, and {}",
-            sound()
+            "wcsph, which the scene asks for: weakly compressible, and {}; sound goes {} smoothing lengths in a step, and particles \
+             see {} spacings far",
+            sound(),
+            number(fluid.sound_share()),
+            number(fluid.support / fluid.spacing)
         ),
         FluidSolver::Sph => format!(
             "sph, which the scene asks for: compressible (Müller 2003), and {}",

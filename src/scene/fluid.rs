@@ -18,13 +18,21 @@ use super::{Dimensions, Particles, StepLimits};
 const SOUND_OVER_FLOW: f64 = 10.0;
 /// Support over spacing, in 2D and in 3D.
 const USUAL_SUPPORT: [f64; 2] = [3.0, 2.6];
+/// The same of `wcsph` in 3D with Wendland's C2 kernel, `continuity` and no surface tension, whose curvature needs more neighbors:
+/// on a lattice gradients are off by 0.1 % with 32 neighbors, where 2.6 spacings have 80 and are off by 2 %.
+const NEAR_SUPPORT: f64 = 2.2;
 /// Of `dfsph`: a lattice at rest then has rest density, and one layer of boundary particles is as deep as the kernel sees.
 const INCOMPRESSIBLE_SUPPORT: f64 = 2.0;
 /// Strength of particle shifting of fluids in flight. The elliptical drop's axes are 0.1 % farther off with 1; with 0 its
 /// particles come as near as 0.2 spacings.
 const USUAL_SHIFTING: f64 = 0.5;
-/// Courant numbers of the time step's limits (Morris 1997).
-const SOUND_SHARE: f64 = 0.25;
+/// Share of the smoothing length that motion and sound together go in a step of `wcsph`. Sound waves on a lattice are stable up to
+/// 1.5 (`src/study/stability/theory.rs`); a third of that leaves room for particles as uneven as splashes make them.
+const SOUND_SHARE: f64 = 0.5;
+/// The same of `sph`, whose kernel of pressure is steep near zero, and where gradients are corrected or particles shifted: errors in
+/// space are then so small that those of longer steps show (Taylor–Green vortices at 25²: 0.52 %, and 0.76 % with 0.5).
+const FINE_SOUND_SHARE: f64 = 0.25;
+/// Courant numbers of the time step's other limits (Morris 1997).
 const VISCOUS_SHARE: f64 = 0.125;
 const FORCE_SHARE: f64 = 0.25;
 const CAPILLARY_SHARE: f64 = 0.25;
@@ -197,9 +205,8 @@ impl Fluid {
                 "choose another kernel, or set fluid.density_from to `summation`",
             );
         }
-        let support = given.support.unwrap_or(match given.solver {
-            FluidSolver::Dfsph => INCOMPRESSIBLE_SUPPORT,
-            _ => USUAL_SUPPORT[frame.dimensions.count() - 2],
+        let support = given.support.unwrap_or_else(|| {
+            usual_support(frame.dimensions, given.solver, kernel, density_from, ripple > 0.0)
         });
         let materials = match &given.materials[..] {
             [] => vec![Material {
@@ -393,7 +400,7 @@ impl Fluid {
         let fastest = kinematic.fold(0.0, f64::max) + self.artificial_viscosity * h * self.sound_speed / 8.0;
         let signal = match self.solver {
             FluidSolver::Dfsph => (self.longest_step(), MOTION),
-            _ => (SOUND_SHARE * h / (self.sound_speed + self.max_speed), SOUND),
+            _ => (self.sound_distance() / (self.sound_speed + self.max_speed), SOUND),
         };
         [
             signal,
@@ -405,6 +412,19 @@ impl Fluid {
             ),
             (self.contact_step, "contacts of rigid bodies"),
         ]
+    }
+
+    /// How far motion and sound together may go in a step, in smoothing lengths.
+    pub fn sound_share(&self) -> f64 {
+        match self.solver == FluidSolver::Sph || self.gradient_correction || self.shifting > 0.0 {
+            true => FINE_SOUND_SHARE,
+            false => SOUND_SHARE,
+        }
+    }
+
+    /// The same in metres.
+    fn sound_distance(&self) -> f64 {
+        self.sound_share() * self.step_length()
     }
 
     /// Of `dfsph`, also when all is at rest, s.
@@ -446,7 +466,7 @@ impl Fluid {
             constant: constant
                 .min_by(|a, b| a.0.total_cmp(&b.0))
                 .expect("viscosity is one"),
-            courant_distance: SOUND_SHARE * h,
+            courant_distance: self.sound_distance(),
             fall: FORCE_SHARE * FORCE_SHARE * h,
             sound_speed: self.sound_speed,
             expected_speed: self.max_speed,
@@ -458,6 +478,25 @@ impl Fluid {
         let gamma = f64::from(self.gamma);
         let stiffness = density * self.sound_speed * self.sound_speed / gamma;
         ((pressure / stiffness).ln_1p() / gamma).exp_m1()
+    }
+}
+
+/// Support over spacing where a scene does not say it.
+pub fn usual_support(
+    dimensions: Dimensions,
+    solver: FluidSolver,
+    kernel: Kernel,
+    density_from: DensityFrom,
+    has_surface_tension: bool,
+) -> f64 {
+    match (dimensions, solver, kernel, density_from) {
+        (_, FluidSolver::Dfsph, ..) => INCOMPRESSIBLE_SUPPORT,
+        (Dimensions::Three, FluidSolver::Wcsph, Kernel::WendlandC2, DensityFrom::Continuity)
+            if !has_surface_tension =>
+        {
+            NEAR_SUPPORT
+        }
+        _ => USUAL_SUPPORT[dimensions.count() - 2],
     }
 }
 

@@ -72,7 +72,8 @@ pub struct Fluid {
     /// The kernel; for `sph` Müller's three when left out, otherwise `wendland_c2`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kernel: Option<Kernel>,
-    /// Where the kernel ends, as a multiple of `spacing`; 3 in 2D and 2.6 in 3D when left out.
+    /// Where the kernel ends, as a multiple of `spacing`. When left out, 2 for `dfsph`; else 3 in 2D, and in 3D 2.2 for `wcsph` with
+    /// `wendland_c2`, `continuity` and no surface tension, 2.6 for all others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1.5, max = 6.0))]
     pub support: Option<f64>,

@@ -55,7 +55,7 @@ pub fn longest(page: &mut Page, bench: &Bench, scale: &Scale) -> Result<()> {
          spacing; unstable where a particle reaches a tenth of the speed of sound within 40 steps. Theory is that of \
          sound waves on the lattice, ω Δt = 2 for the fastest wave. *Dam*: a breaking dam with artificial viscosity 0.05, \
          unstable where it gains 2 % of its energy or loses a particle; no theory gives its limit, so it is put beside \
-         the step that scenes take (Morris 1997: 0.25 h over the speed of sound and of the flow). *Column*: eight grains \
+         the step that scenes take (0.5 h over the speed of sound and of the flow, 0.25 h of `sph`). *Column*: eight grains \
          one above the other, restitution 0.5, unstable where they move after 600 steps; theory is that of the \
          fastest mode of the chain with its dashpots, for symplectic Euler, which takes both integrators here.",
     );

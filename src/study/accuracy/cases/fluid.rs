@@ -5,8 +5,9 @@ use serde::Serialize;
 
 use super::columns::{scalars, vectors};
 use crate::error::Result;
+use crate::scene::fluid::usual_support;
 use crate::scene::model::{DensityFrom, PressureForce, Slip, Wall};
-use crate::scene::{Dimensions, Scene, library, load};
+use crate::scene::{Scene, library, load};
 use crate::study::accuracy::record::{Figure, Method, Record};
 use crate::study::accuracy::run::{Run, run};
 use crate::study::bench::Bench;
@@ -80,10 +81,13 @@ fn method(scene: &Scene) -> Method {
     let Some(fluid) = scene.fluid() else {
         return Method::default();
     };
-    let usual_support = match scene.dimensions {
-        Dimensions::Two => 3.0,
-        Dimensions::Three => 2.6,
-    };
+    let usual_support = usual_support(
+        scene.dimensions,
+        fluid.solver,
+        fluid.kernel,
+        fluid.density_from,
+        fluid.has_surface_tension(),
+    );
     let planes = scene
         .domain
         .sides
