@@ -68,10 +68,10 @@ pub fn column_limit(spring: f64, damping: f64, mass: f64, grains: u32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::stability::methods::{FLUIDS, block};
+    use crate::study::stability::methods::{METHODS, block};
 
     fn fluid(change: impl FnOnce(&mut serde_json::Value)) -> Fluid {
-        let scene = FLUIDS[1].scene(block([0.0; 2], 8, 8), |file| change(&mut file["fluid"]));
+        let scene = METHODS[1].scene(block([0.0; 2], 8, 8), |file| change(&mut file["fluid"]));
         scene.unwrap().fluid().unwrap().clone()
     }
 

@@ -84,7 +84,7 @@ fn wanted() -> Wanted {
         columns_every: 0,
         view: None,
         voxel_map: Some(64),
-        sensors: false,
+        ..Wanted::default()
     }
 }
 
