@@ -73,7 +73,7 @@ impl Guards {
             .and_then(|convergence| self.unconverged(scene, convergence));
         let figures = frame.statistics.as_ref();
         let found = overflow(scene, frame)
-            .or_else(|| figures.and_then(|figures| not_finite(figures)))
+            .or_else(|| figures.and_then(not_finite))
             .or_else(|| figures.and_then(|figures| strained(scene, frame.index, figures)))
             .or(unconverged)
             .or_else(|| figures.and_then(|figures| self.energy(scene, frame, figures)));

@@ -148,7 +148,7 @@ pub fn fit(path: &str, radii: &mut Vec<f64>, file: &SceneFile, placed: &Placemen
         );
     }
     let span = sizes.smallest() * (1.0 - ROUNDED)..=file.radius() * (1.0 + ROUNDED);
-    if let Some(beyond) = radii.iter().find(|radius| !span.contains(radius)) {
+    if let Some(beyond) = radii.iter().find(|&&radius| !span.contains(&radius)) {
         report.problem(
             path,
             format!(
@@ -355,13 +355,14 @@ mod tests {
 
     #[test]
     fn drawn_radii_have_the_mean_and_deviation_that_were_asked_for() {
-        let (mean, deviation) = (0.006, 0.0015);
-        let variance: f64 = (1.0 + (deviation / mean as f64).powi(2)).ln();
+        let (mean, deviation): (f64, f64) = (0.006, 0.0015);
+        let variance = (1.0 + (deviation / mean).powi(2)).ln();
         let log_normal = move |r: f64| {
             let off = (r / mean).ln() + 0.5 * variance;
             (-off * off / (2.0 * variance)).exp() / r
         };
-        let cases: [(&str, Value, Box<dyn Fn(f64) -> f64>); 3] = [
+        type Density = Box<dyn Fn(f64) -> f64>;
+        let cases: [(&str, Value, Density); 3] = [
             (
                 "uniform",
                 json!({ "kind": "uniform", "smallest": 0.003 }),

@@ -11,8 +11,11 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore as _, SeedableRng as _};
 use serde_json::{Value, json};
 
+/// Its name, and what makes it of a usual scene.
+type Case = (&'static str, fn(&mut Value));
+
 /// Scenes that are killed: what each adds to grains that meet an obstacle, of what may be lost between two frames.
-const KILLED: [(&str, fn(&mut Value)); 4] = [
+const KILLED: [Case; 4] = [
     ("grains", |_| {}),
     // Contacts have a history.
     ("grains that rub", |scene| {
