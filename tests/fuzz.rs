@@ -493,7 +493,7 @@ fn peak_memory() -> u64 {
 fn no_entry_stumbles_over_changed_inputs() {
     let watch = Watch::new();
     for entry in ENTRIES {
-        fuzz(entry, 0, &watch, |count| count < entry.count.into());
+        fuzz(entry, 0, &watch, |count| count < u64::from(entry.count));
         assert!(
             peak_memory() < MOST_MEMORY,
             "{} took {} bytes",
