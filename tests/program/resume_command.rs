@@ -241,7 +241,7 @@ fn a_stopped_run_goes_on_where_it_was_and_a_finished_one_grows() {
     let whole = frames.to_string();
     place.told(&mut place.run("whole", &["--frames", &whole]), 0);
     let done = place.manifest("run")["frames_done"].as_u64().unwrap();
-    assert!(done < frames.into(), "{done}");
+    assert!(done < u64::from(frames), "{done}");
     assert_eq!(
         place.checkpoints("run"),
         [format!("checkpoint_{:06}.bin", done - 1)]
