@@ -96,7 +96,7 @@ def scene(folder, style, width, height):
     # One frame to warm up.
     frame = STEPS * STEP
     scene = {
-        "domain": {"min": [-0.02, -0.02, -0.02], "max": [width + 0.02, height, width + 0.02], "sides": {"y_max": "open"}},
+        "domain": {"min": [0, 0, 0], "max": [width, height, width], "sides": {"y_max": "open"}},
         "gravity": [0, -1, 0],
         "grains": grains,
         "bodies": [{"shape": {"kind": "particles", "file": "bed.npy"}}],

@@ -317,6 +317,7 @@ fn grains(
             position,
             velocity,
             radius,
+            tolerance: fit::TOLERANCE,
         });
     }
     let region = region(&shape, &body.shape, frame, folder, report)?;
@@ -336,6 +337,7 @@ fn grains(
             velocity: vec![velocity; balls.len()],
             radius: balls.iter().map(|ball| ball.1).collect(),
             position: balls.into_iter().map(|ball| ball.0).collect(),
+            tolerance: fit::TOLERANCE,
         });
     }
     let arrangement = body.arrangement.unwrap_or_default();
@@ -398,6 +400,7 @@ fn grains(
         position,
         velocity,
         radius: Vec::new(),
+        tolerance: fit::TOLERANCE,
     })
 }
 
@@ -531,5 +534,6 @@ pub(super) fn from_file(
             .iter()
             .filter_map(|&i| Some(radius.get(i)? * scale.x))
             .collect(),
+        tolerance: fit::PRESSED,
     })
 }

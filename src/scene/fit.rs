@@ -13,7 +13,10 @@ use super::{Collider, Dimensions};
 
 /// Share of a radius by which a grain may reach into a wall, a collider or another grain before it counts: rounding
 /// and lattices laid side by side stay far below.
-const TOLERANCE: f64 = 1e-3;
+pub const TOLERANCE: f64 = 1e-3;
+/// The same into walls and colliders for particles of a file, which may come from a run in which they pressed against these:
+/// deeper overlaps of grains cause a warning.
+pub const PRESSED: f64 = 0.2;
 
 /// Of one body.
 pub struct Grains {
@@ -23,6 +26,8 @@ pub struct Grains {
     pub velocity: Vec<DVec3>,
     /// Where they are of several sizes, metres; otherwise empty.
     pub radius: Vec<f64>,
+    /// [`TOLERANCE`] or [`PRESSED`].
+    pub tolerance: f64,
 }
 
 impl Grains {
@@ -85,7 +90,7 @@ pub fn check_walls(path: &str, grains: &Grains, radius: f64, frame: &Frame, repo
                 Wall::Periodic => "particles lie outside the domain's periodic side",
                 _ => "reaches through the domain's side",
             };
-            if beyond > radius * TOLERANCE {
+            if beyond > radius * grains.tolerance {
                 report.problem(
                     path,
                     format!("{says} {name}_{end}, by {} m", number(beyond)),
@@ -111,7 +116,8 @@ pub fn remove_inside_colliders(
             .first()
             .map_or(DVec3::ZERO, |(_, offset)| offset.as_dvec3());
         let obstacle = Obstacle::new(&collider.shape, dimensions);
-        let is_free = |(center, radius)| !obstacle.touches(center - offset, reach(radius));
+        let share = 1.0 - grains.tolerance;
+        let is_free = |(center, radius)| !obstacle.touches(center - offset, share * radius);
         let kept: Vec<bool> = grains.balls(radius).map(is_free).collect();
         keep_free(path, grains, &kept, &format!("colliders[{i}]"), report);
     }

@@ -13,7 +13,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::bodies::{self, expected_points, smaller};
-use super::fit::Grains;
+use super::fit::{Grains, TOLERANCE};
 use super::floating::{self, Surface};
 use super::frame::{Frame, Report};
 use super::friction::Friction;
@@ -57,6 +57,7 @@ impl RigidBody {
         let arms = self.places.iter().map(|place| self.orientation * *place);
         Grains {
             radius: Vec::new(),
+            tolerance: TOLERANCE,
             position: arms.clone().map(|arm| self.center + arm).collect(),
             velocity: arms
                 .map(|arm| self.velocity + self.angular_velocity.cross(arm))

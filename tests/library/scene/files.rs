@@ -102,3 +102,27 @@ fn bodies_come_from_particle_files_and_meshes() {
     assert!((400..600).contains(&filled), "{filled}");
     assert!((2..scene.particles.len()).all(|i| position(i).x > 1.0));
 }
+
+#[test]
+fn particles_of_a_file_may_press_against_walls_as_in_the_run_they_come_from() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = |height: f64| {
+        std::fs::write(
+            folder.path().join("bed.csv"),
+            format!("x,y,z\n0.5,{height},0.5\n"),
+        )
+        .expect("a file");
+        let text = r#"{
+          "domain": { "min": [0, 0, 0], "max": [1, 1, 1] },
+          "grains": { "radius": 0.1, "spring": 1000, "restitution": 0.5 },
+          "bodies": [ { "shape": { "kind": "particles", "file": "bed.csv" } } ]
+        }"#;
+        load::parse(text, "bed.json", folder.path(), &[]).map_err(|error| error.to_string())
+    };
+    assert_eq!(scene(0.085).map(|scene| scene.particles.len()), Ok(1));
+    let error = scene(0.07).expect_err("too deep");
+    assert!(
+        error.contains("reaches through the domain's side y_min, by 0.03 m"),
+        "{error}"
+    );
+}
