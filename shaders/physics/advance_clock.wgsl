@@ -1,6 +1,7 @@
 #flag advances_clock
 #import physics/clock
 #import physics/guard
+#import fields/id
 #if adaptive_step
 #import physics/choose_step
 #end
@@ -18,6 +19,9 @@ fn advance_clock() {
 #end
     if atomicLoad(&guard.count) > 0u && guard.step == GUARD_NO_STEP {
         guard.step = clock.step;
+        for (var k = 0u; k < min(atomicLoad(&guard.noted), ACCIDENTS); k++) {
+            guard.accidents[k].id = id[guard.accidents[k].id];
+        }
     }
     clock.step_in_segment += 1u;
     clock.step += 1u;

@@ -3,7 +3,6 @@
 // step that has any, the same one is told in every run, whichever thread comes first.
 #import common/vector
 #import common/shuffle
-#import fields/id
 
 // Bits of numbers that are not negative, which are ordered as the numbers are.
 struct Extremes {
@@ -15,7 +14,7 @@ struct Extremes {
 struct Accident {
     position: vec4f, // before the step, m
     velocity: vec4f, // after it, m/s
-    id: u32,
+    id: u32, // its slot, until advance_clock.wgsl looks up the id
     kind: u32, // one of GUARD_… (src/guards.rs)
     order: u32, // the accident with the lowest one is told
 }
@@ -46,8 +45,9 @@ fn note_accident(slot: u32, kind: u32, position: Vector, velocity: Vector) {
     if guard.step != GUARD_NO_STEP {
         return;
     }
-    // In whatever order ids are caught, few of these numbers are lower than all before.
-    let order = shuffled(id[slot]);
+    // In whatever order places are caught, few of these numbers are lower than all before.
+    let bits = bitcast<vec3u>(to_3d(position));
+    let order = shuffled(bits.x ^ shuffled(bits.y ^ shuffled(bits.z)));
     if order >= atomicMin(&guard.lowest, order) {
         return;
     }
@@ -55,7 +55,7 @@ fn note_accident(slot: u32, kind: u32, position: Vector, velocity: Vector) {
     if place < ACCIDENTS {
         guard.accidents[place].position = vec4f(to_3d(position), 0.0);
         guard.accidents[place].velocity = vec4f(to_3d(velocity), 0.0);
-        guard.accidents[place].id = id[slot];
+        guard.accidents[place].id = slot;
         guard.accidents[place].kind = kind;
         guard.accidents[place].order = order;
     }

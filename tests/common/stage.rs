@@ -156,6 +156,7 @@ pub fn variant(scene: &Scene) -> Variant {
             "floating_bodies",
             "regions",
             "separated",
+            "sizes",
         ])
         .constant("NO_VOXEL", NO_VOXEL)
         .constant("REGIONS_ALONG", 4)

@@ -34,7 +34,7 @@ fn variants() -> Vec<Variant> {
             let mut variant = Variant::default();
             variant.modules.extend(fields::modules(FIELDS));
             variant
-                .without(&["boundary_particles", "bounded", "regions", "separated"])
+                .without(&["boundary_particles", "bounded", "regions", "separated", "sizes"])
                 .constant("NO_VOXEL", NO_VOXEL)
                 .constant("REGIONS_ALONG", 4)
                 .flag("two_dimensional", two)

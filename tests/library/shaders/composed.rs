@@ -31,6 +31,7 @@ fn every_flag_is_composed_both_on_and_off() {
                 "round_shadows",
                 "has_floor",
                 "water",
+                "water_mesh",
                 "transparent",
                 "solid_floor",
                 "has_obstacles",
