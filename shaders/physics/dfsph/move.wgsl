@@ -14,6 +14,9 @@
 #import fields/velocity/pack
 #import fields/next_correction/write
 #import physics/dfsph/own
+#if boundary_particles
+#import fields/id
+#end
 #if faces
 #import physics/fluid/rim
 #end
