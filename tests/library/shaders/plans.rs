@@ -220,6 +220,9 @@ fn friction_plans() -> Vec<Plan> {
     let mut plans = Vec::new();
     for dimensions in [2, 3] {
         let sensors = sensors(dimensions, false);
+        let smallest = if dimensions == 2 { 0.008 } else { 0.02 };
+        let sizes = format!(r#"grains.sizes={{"kind":"uniform","smallest":{smallest}}}"#);
+        let sizes = [&*sizes, "bodies[0].jitter=0", "bodies[0].spacing=null"];
         let at = |numbers: [f64; 3]| format!("{:?}", &numbers[..dimensions]);
         let rigid = format!(
             r#"bodies=[{{"shape":{{"kind":"box","min":{},"max":{}}},"rigid":{{}}}}]"#,
@@ -248,8 +251,24 @@ fn friction_plans() -> Vec<Plan> {
             ],
             &[steel, "bodies[0].material=steel", "colliders[0].spin=1"],
             &[TUBE],
+            &[&sizes[..], &["grains.rolling_friction=0.1"]].concat(),
+            &[
+                &sizes[..],
+                &["grains.spring=null", "grains.contact_time=0.01", steel],
+            ]
+            .concat(),
+            &[
+                &sizes[..],
+                &[
+                    "grains.law=hertz",
+                    "grains.spring=null",
+                    "grains.young_modulus=1e6",
+                ],
+            ]
+            .concat(),
+            &[&sizes[..], &["grains.law=spring_dashpot"]].concat(),
         ] {
-            if dimensions == 2 && (more[0] == "grains.law=hertz" || more[0] == TUBE) {
+            if dimensions == 2 && (more.contains(&"grains.law=hertz") || more[0] == TUBE) {
                 continue;
             }
             let given = [
