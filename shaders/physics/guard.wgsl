@@ -45,7 +45,7 @@ fn note_accident(slot: u32, kind: u32, position: Vector, velocity: Vector) {
     if guard.step != GUARD_NO_STEP {
         return;
     }
-    // In whatever order places are caught, few of these numbers are lower than all before.
+    // In whatever order places are caught, few of these numbers are lower than all before. Two in one place are told of as one.
     let bits = bitcast<vec3u>(to_3d(position));
     let order = shuffled(bits.x ^ shuffled(bits.y ^ shuffled(bits.z)));
     if order >= atomicMin(&guard.lowest, order) {

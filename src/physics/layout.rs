@@ -126,6 +126,7 @@ shared_struct! {
         pub position: [f32; 4],
         /// After it, m/s.
         pub velocity: [f32; 4],
+        /// Its slot until the step ends.
         pub id: u32,
         /// [`crate::guards::GuardKind::code`].
         pub kind: u32,

@@ -86,19 +86,13 @@ impl<'a> Draw<'a> {
     /// A radius, metres.
     pub fn radius(&self, rng: &mut impl Rng) -> f64 {
         let (smallest, largest) = (self.sizes.smallest(), self.largest);
-        let within = |radius: &f64| (smallest..=largest).contains(radius);
-        let mut again = |mut draw: Box<dyn FnMut(f64) -> f64>| {
-            std::iter::repeat_with(|| draw(normal(rng)))
-                .find(within)
-                .expect("an endless row")
-        };
         match self.sizes {
             Sizes::Uniform { .. } => smallest + (largest - smallest) * rng.random::<f64>(),
-            &Sizes::Normal { mean, deviation, .. } => again(Box::new(move |z| mean + deviation * z)),
+            &Sizes::Normal { mean, deviation, .. } => self.cut_off(rng, |z| mean + deviation * z),
             &Sizes::LogNormal { mean, deviation, .. } => {
                 let variance = (1.0 + (deviation / mean).powi(2)).ln();
                 let center = mean.ln() - 0.5 * variance;
-                again(Box::new(move |z| (center + variance.sqrt() * z).exp()))
+                self.cut_off(rng, |z| (center + variance.sqrt() * z).exp())
             }
             Sizes::Sieve { curve } => {
                 let share = rng.random::<f64>();
@@ -109,6 +103,17 @@ impl<'a> Draw<'a> {
                 // The number of grains falls with 1/r³ (1/r²), so that 1/r² (1/r) is evenly spread.
                 let radius = (from + (to - from) * rng.random::<f64>()).powf(1.0 / f64::from(power));
                 radius.clamp(smallest, largest)
+            }
+        }
+    }
+
+    /// The first radius of a normal draw that is not cut off. [`check`] sees to it that a fair share is not.
+    fn cut_off(&self, rng: &mut impl Rng, of: impl Fn(f64) -> f64) -> f64 {
+        let within = self.sizes.smallest()..=self.largest;
+        loop {
+            let radius = of(normal(rng));
+            if within.contains(&radius) {
+                return radius;
             }
         }
     }

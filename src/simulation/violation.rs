@@ -20,10 +20,8 @@ impl Simulation {
         steps: u32,
         step_control: Option<&StepControl>,
     ) -> Error {
-        let found = guard
-            .told()
-            .zip(guard.told().and_then(|told| GuardKind::of(told.kind)));
-        let Some((accident, kind)) = found else {
+        let told = guard.told();
+        let Some((accident, kind)) = told.and_then(|told| Some((told, GuardKind::of(told.kind)?))) else {
             return Error::device(
                 "the guard counts accidents and tells of none",
                 "this is a defect of the driver or of Sliceflow, please report it",
@@ -60,7 +58,7 @@ impl Simulation {
                 edge(&self.scene)
             ),
             GuardKind::Crowded => format!(
-                "there is room for {} contacts, more than rigid grains can have",
+                "there is room for {} contacts, more than rigid grains usually have",
                 contact_slots(&self.scene)
             ),
             _ => {

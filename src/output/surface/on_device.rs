@@ -108,6 +108,9 @@ impl OnDevice {
         };
         let mesh = maker.make(&searched, &shape, &lattice)?;
         add(figures, &mesh.figures);
+        if mesh.triangles == 0 {
+            return Ok(None);
+        }
         let mut columns = Vec::new();
         for VertexColumn { name, width, values } in &cloud.columns {
             columns.push(VertexColumn {
@@ -115,9 +118,6 @@ impl OnDevice {
                 width: *width,
                 values: maker.blend(&searched, &mesh, values, *width as u32)?,
             });
-        }
-        if mesh.triangles == 0 {
-            return Ok(None);
         }
         let mut fetched = fetch(&self.gpu, maker.buffers(), &mesh, &scene, columns, normals)?;
         for vertex in &mut fetched.vertices {
