@@ -45,6 +45,18 @@ fn parsed(text: &str, overrides: &[&str]) -> Scene {
     }
 }
 
+/// The scene with particles at rest at these points in place of its own.
+#[allow(dead_code)]
+pub fn resting(mut scene: Scene, points: &[Vec3]) -> Scene {
+    scene.particles = Particles {
+        position: points.to_vec(),
+        velocity: vec![Vec3::ZERO; points.len()],
+        ..Particles::default()
+    };
+    scene.capacity = points.len() as u32;
+    scene
+}
+
 /// A device with all checks in the shaders. Tests that run at the same time have one each; those that come later get a device
 /// back with what it has compiled.
 #[allow(dead_code)]

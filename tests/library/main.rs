@@ -6,6 +6,10 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/fluid_reference.rs"]
+mod fluid_reference;
+#[path = "../common/reference.rs"]
+mod reference;
 #[path = "../common/rotating.rs"]
 mod rotating;
 #[path = "../common/stage.rs"]
@@ -14,11 +18,14 @@ mod stage;
 mod adapters;
 mod adaptive;
 mod boundary_reach;
+mod coincident;
 mod dfsph;
 mod fields;
 mod floating;
+mod fluids;
 mod friction;
 mod grain_materials;
+mod grains;
 mod implicit_viscosity;
 mod map;
 mod neighbors;
@@ -33,5 +40,7 @@ mod rigid;
 mod scene;
 mod sensors;
 mod shaders;
+mod sizes;
 mod sorts;
+mod surface_tension;
 mod voxel_map;

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use sliceflow::gpu::device::Limits;
 use sliceflow::neighbors::{ADDRESSINGS, STORAGES};
 use sliceflow::plan::{Plan, Wanted};
-use sliceflow::scene::{Particles, Scene};
+use sliceflow::scene::Scene;
 use sliceflow::simulation::Simulation;
 
 use crate::common;
@@ -56,14 +56,7 @@ fn scene_with(
         .map(String::as_str)
         .chain(more.iter().copied())
         .collect();
-    let mut scene = common::scene(dimensions, &all);
-    scene.particles = Particles {
-        position: points.to_vec(),
-        velocity: vec![Vec3::ZERO; points.len()],
-        ..Particles::default()
-    };
-    scene.capacity = points.len() as u32;
-    scene
+    common::resting(common::scene(dimensions, &all), points)
 }
 
 /// All pairs by the one predicate: strictly nearer than the radius, in f32.

@@ -9,23 +9,17 @@ use sliceflow::gpu::BufferPlan;
 use sliceflow::neighbors::occupancy::{Allocation, Census, Figures, hash_buckets};
 use sliceflow::neighbors::{ADDRESSINGS, Grid, STORAGES};
 use sliceflow::plan::{Plan, Wanted};
-use sliceflow::scene::{Dimensions, Particles, Scene};
+use sliceflow::scene::{Dimensions, Scene};
 
 use crate::common;
 
 fn scene_of(dimensions: usize, axis: &str, points: &[Vec3]) -> Scene {
     let axis = format!("neighbors.slicing_axis={axis}");
-    let mut scene = common::scene(
+    let scene = common::scene(
         dimensions,
         &[&axis, "colliders=[]", "neighbors.slots=2", "neighbors.skin=0"],
     );
-    scene.particles = Particles {
-        position: points.to_vec(),
-        velocity: vec![Vec3::ZERO; points.len()],
-        ..Particles::default()
-    };
-    scene.capacity = points.len() as u32;
-    scene
+    common::resting(scene, points)
 }
 
 /// Points all over the domain and a little beyond, and three dense clouds.

@@ -3,24 +3,11 @@
 use std::fs;
 use std::path::Path;
 
-use assert_cmd::{Command, cargo_bin_cmd};
-
-fn sliceflow(args: &[&str]) -> Command {
-    let mut command = cargo_bin_cmd!("sliceflow");
-    command.args(args);
-    command
-}
-
-/// Standard output of a command that succeeds.
-fn output(args: &[&str]) -> String {
-    let assert = sliceflow(args).assert().success();
-    String::from_utf8(assert.get_output().stdout.clone()).unwrap()
-}
+use crate::command::{failure, output, sliceflow};
 
 /// Standard error of a command that the user has to correct.
 fn refused(args: &[&str]) -> String {
-    let assert = sliceflow(args).assert().code(2);
-    String::from_utf8(assert.get_output().stderr.clone()).unwrap()
+    failure(args, 2)
 }
 
 #[test]

@@ -5,16 +5,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use assert_cmd::{Command, cargo_bin_cmd};
+use assert_cmd::Command;
 use image::AnimationDecoder as _;
 
-const SCENE_3D: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/common/scene_3d.json");
+use crate::command::sliceflow;
 
-fn sliceflow(args: &[&str]) -> Command {
-    let mut command = cargo_bin_cmd!("sliceflow");
-    command.args(args);
-    command
-}
+const SCENE_3D: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/common/scene_3d.json");
 
 /// Standard error of a command that ends with this status.
 fn told(command: &mut Command, status: i32) -> String {

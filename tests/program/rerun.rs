@@ -6,15 +6,10 @@ use std::fs;
 use std::io::BufReader;
 use std::path::Path;
 
-use assert_cmd::{Command, cargo_bin_cmd};
 use rerun::external::re_log_encoding::DecoderApp;
 use rerun::log::{Chunk, LogMsg};
 
-fn sliceflow(args: &[&str]) -> Command {
-    let mut command = cargo_bin_cmd!("sliceflow");
-    command.args(args);
-    command
-}
+use crate::command::sliceflow;
 
 /// A short run of small frames in `folder`.
 fn short_run<'a>(scene: &'a str, out: &'a str, more: &[&'a str]) -> Vec<&'a str> {

@@ -10,29 +10,12 @@ mod runs;
 use std::fs;
 use std::path::Path;
 
-use assert_cmd::{Command, cargo_bin_cmd};
 use serde_json::Value;
 
-fn sliceflow(args: &[&str]) -> Command {
-    let mut command = cargo_bin_cmd!("sliceflow");
-    command.args(args);
-    command
-}
-
-/// Standard output of a command that succeeds.
-fn output(args: &[&str]) -> String {
-    let assert = sliceflow(args).assert().success();
-    String::from_utf8(assert.get_output().stdout.clone()).unwrap()
-}
+use crate::command::{failure, output, sliceflow};
 
 fn json(args: &[&str]) -> Value {
     serde_json::from_str(&output(args)).unwrap()
-}
-
-/// Standard error of a command that fails with this exit status.
-fn failure(args: &[&str], status: i32) -> String {
-    let assert = sliceflow(args).assert().code(status);
-    String::from_utf8(assert.get_output().stderr.clone()).unwrap()
 }
 
 fn read_json(path: &Path) -> Value {

@@ -1,10 +1,10 @@
 //! Particles of a fluid that stand in one place, or nearly so, come apart.
 
-mod common;
-
 use glam::Vec3;
 use sliceflow::plan::Wanted;
 use sliceflow::scene::{Scene, load};
+
+use crate::common;
 
 /// A block of fluid on the floor in which particle 29 stands where particle 28 is, but for so many spacings; and the spacing.
 fn nearly(dimensions: usize, solver: &str, aside: f32) -> (Scene, f32) {

@@ -1,16 +1,14 @@
 //! Contact forces and motion of grains against f64 on the CPU and against theory.
 
-mod common;
-#[path = "common/reference.rs"]
-mod reference;
-
 use glam::{DVec3, Vec3};
-use reference::Reference;
 use sliceflow::error::Error;
 use sliceflow::plan::Wanted;
 use sliceflow::scene::signed_distance::SignedDistance;
 use sliceflow::scene::{ColliderShape, Particles, Scene};
 use sliceflow::simulation::{Frame, Simulation, Values};
+
+use crate::common;
+use crate::reference::Reference;
 
 fn wanted() -> Wanted {
     let columns = sliceflow::output::columns_named(["position", "velocity", "contacts"]).expect("columns");
@@ -258,7 +256,7 @@ fn two_runs_give_the_same_bits_through_every_grid() {
 
 #[test]
 fn a_scene_far_from_zero_gives_the_same_motion() {
-    let text = include_str!("common/scene_3d.json");
+    let text = include_str!("../common/scene_3d.json");
     let mut far: serde_json::Value = serde_json::from_str(text).unwrap();
     let shift = [1.0e6, -2.0e6, 5.0e5];
     fn moved(value: &mut serde_json::Value, shift: [f64; 3]) {

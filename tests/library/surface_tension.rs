@@ -1,11 +1,11 @@
 //! Drops: how they ring, what their surface presses, how they meet walls.
 
-mod common;
-
 use glam::Vec3;
 use sliceflow::plan::Wanted;
 use sliceflow::scene::Scene;
 use sliceflow::simulation::Simulation;
+
+use crate::common;
 
 /// A drop of density 1 and surface tension 1 that starts as a box, without weight.
 fn drop(body: &str, overrides: &[&str]) -> Scene {

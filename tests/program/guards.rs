@@ -3,14 +3,12 @@
 
 #![cfg(all(unix, feature = "cli"))]
 
-#[path = "common/place.rs"]
-mod place;
-
 use std::fs;
 
-use place::Place;
 use serde_json::{Value, json};
 use sliceflow::guards::{GUARDS, GuardKind};
+
+use crate::place::{FRAMES, Place};
 
 /// Grains at rest that a change of gravity presses through the floor after a while.
 fn grains() -> Value {
@@ -233,7 +231,7 @@ fn thrown(sound: f64) -> Value {
 }
 
 /// A scene that a guard stops, with arguments, and whether the guard tells of one particle. No scene that is accepted comes to
-/// a number that is none, or so far, before another guard stops it: `tests/grains.rs` begins there.
+/// a number that is none, or so far, before another guard stops it: `tests/library/grains.rs` begins there.
 fn made_for(guard: GuardKind) -> Option<(Value, &'static [&'static str], bool)> {
     let fast_grains = |speed: f64| {
         with(
@@ -426,7 +424,7 @@ fn a_run_stops_before_its_files_take_too_much() {
     let manifest = place.manifest("run");
     assert_eq!(manifest["status"], "interrupted");
     let done = manifest["frames_done"].as_u64().unwrap();
-    assert!((2..u64::from(place::FRAMES)).contains(&done), "{done} frames");
+    assert!((2..u64::from(FRAMES)).contains(&done), "{done} frames");
     assert!(bytes("run") <= max, "{} of {max}", bytes("run"));
 
     // With the same bound, nothing more fits; with a larger one, it comes to the bytes of a run without any.
