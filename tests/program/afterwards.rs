@@ -1,6 +1,6 @@
 //! What one does with runs afterwards: draw them again, and compare them.
 
-#![cfg(all(unix, feature = "cli"))]
+#![cfg(unix)]
 
 use std::collections::BTreeSet;
 use std::fs;

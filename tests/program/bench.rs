@@ -1,6 +1,6 @@
 //! `sliceflow bench` measures, writes and compares. No figure is asserted that depends on a machine's speed.
 
-#![cfg(all(feature = "cli", feature = "study"))]
+#![cfg(feature = "study")]
 
 use std::path::Path;
 

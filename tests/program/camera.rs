@@ -1,7 +1,5 @@
 //! Camera paths, motion blur and depth of field against what a pinhole sees. Needs an adapter; software Vulkan will do.
 
-#![cfg(feature = "cli")]
-
 use glam::{DVec3, Vec3};
 use image::RgbaImage;
 use sliceflow::render::blur::moments;

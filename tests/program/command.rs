@@ -1,7 +1,5 @@
 //! The program, started with arguments.
 
-#![cfg(feature = "cli")]
-
 use assert_cmd::{Command, cargo_bin_cmd};
 
 pub fn sliceflow(args: &[&str]) -> Command {

@@ -1,6 +1,6 @@
 //! What disks do to runs: they fill up, they vanish, they may not be written.
 
-#![cfg(all(unix, feature = "cli"))]
+#![cfg(unix)]
 
 use std::fs;
 use std::process::{Command, Output};

@@ -1,6 +1,6 @@
 //! `sliceflow gallery`: what is there stays, and what is missing is made. Needs an adapter; software Vulkan will do.
 
-#![cfg(all(unix, feature = "cli"))]
+#![cfg(unix)]
 
 use std::fs;
 use std::process::Command;

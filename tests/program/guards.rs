@@ -1,7 +1,7 @@
 //! What guards do to a run, as a user meets it: where it stops, what it leaves, that this can be replayed, that a smaller step
 //! helps, and that shipped scenes are left alone.
 
-#![cfg(all(unix, feature = "cli"))]
+#![cfg(unix)]
 
 use std::fs;
 

@@ -1,8 +1,6 @@
 //! Looks of pictures: splats, spheres, water, meshes; transparent pictures, and pictures without text. Needs an adapter; software
 //! Vulkan will do.
 
-#![cfg(feature = "cli")]
-
 use std::fs;
 
 use glam::{DVec2, DVec3};

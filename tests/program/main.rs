@@ -1,5 +1,7 @@
 //! The program as a user meets it: commands, messages, files. One test program for many files, as in `tests/library/`.
 
+#![cfg(feature = "cli")]
+
 #[path = "../common/mod.rs"]
 mod common;
 #[path = "../common/place.rs"]

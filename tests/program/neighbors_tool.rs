@@ -1,7 +1,5 @@
 //! All pairs of bare points, and the command that finds them in files.
 
-#![cfg(feature = "cli")]
-
 use std::fs;
 use std::path::{Path, PathBuf};
 

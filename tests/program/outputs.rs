@@ -1,6 +1,6 @@
 //! What a run leaves behind besides frames: particle files, surfaces, videos; and imported scenes, as a user meets them.
 
-#![cfg(all(feature = "cli", feature = "surface", feature = "video"))]
+#![cfg(all(feature = "surface", feature = "video"))]
 
 use std::fs;
 use std::path::{Path, PathBuf};

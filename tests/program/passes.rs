@@ -1,8 +1,6 @@
 //! Extra images for compositing, read back from their files and held to what rays find in f64. Needs an adapter; software Vulkan
 //! will do.
 
-#![cfg(feature = "cli")]
-
 use std::fs;
 
 use glam::{DVec2, DVec3};

@@ -1,6 +1,6 @@
 //! `sliceflow render RUN`: some of the frames, a video, and colors that the run's files hold.
 
-#![cfg(all(unix, feature = "cli", feature = "video"))]
+#![cfg(all(unix, feature = "video"))]
 
 use std::fs;
 

@@ -1,5 +1,5 @@
 //! Recordings for the Rerun viewer, read back with Rerun's own decoder.
-#![cfg(all(feature = "cli", feature = "rerun"))]
+#![cfg(feature = "rerun")]
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

@@ -1,6 +1,6 @@
 //! `sliceflow resume` as a user meets it: whatever ended a run, it comes to the bytes of one that nothing ended.
 
-#![cfg(all(unix, feature = "cli"))]
+#![cfg(unix)]
 
 use std::fs;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! Studies write a page, its pictures and the same figures as JSON. Times are not asserted.
 
-#![cfg(all(feature = "cli", feature = "study"))]
+#![cfg(feature = "study")]
 
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! Arguments, messages, exit status, files.
 
-#![cfg(all(feature = "cli", feature = "plots", feature = "surface", feature = "video"))]
+#![cfg(all(feature = "plots", feature = "surface", feature = "video"))]
 
 mod arguments;
 mod inspect;

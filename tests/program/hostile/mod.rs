@@ -1,7 +1,7 @@
 //! Scenes, files and run folders that broke the program once. Each is answered with what is wrong and what helps, within
 //! little memory; what is in `tests/attack/` stands there as it was found.
 
-#![cfg(all(unix, feature = "cli"))]
+#![cfg(unix)]
 
 mod folders;
 mod scenes;
