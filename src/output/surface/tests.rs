@@ -168,6 +168,52 @@ fn a_tank_at_rest_ends_at_its_walls_and_has_its_volume() {
     });
 }
 
+/// How far a surface that should be a plane is from it: root mean square and most of all vertices that `is_inner` says have
+/// no other side near, in spacings.
+fn off_plane(
+    mesh: &SurfaceMesh,
+    distance: impl Fn(DVec3) -> f64,
+    is_inner: impl Fn(DVec3) -> bool,
+) -> [f64; 2] {
+    let inner = mesh.vertices.iter().copied().filter(|v| is_inner(*v));
+    let off: Vec<f64> = inner.map(|v| distance(v).abs() / (2.0 * RADIUS)).collect();
+    assert!(off.len() > 300, "{} vertices", off.len());
+    let squares = off.iter().map(|d| d * d).sum::<f64>();
+    [
+        (squares / off.len() as f64).sqrt(),
+        off.into_iter().fold(0.0, f64::max),
+    ]
+}
+
+/// Particles are up to a tenth of a spacing off their places along each axis, and a lattice that is cut askew has steps of
+/// half a spacing.
+#[test]
+fn a_tank_at_rest_and_a_box_cut_askew_end_in_planes() {
+    let scene = parse(TANK, "tank", Path::new("."), &["colliders=[]".into()]).unwrap();
+    let mut tank = lattice([20, 10, 12], |_| true);
+    tank.position.iter_mut().for_each(|p| *p += DVec3::X * 100.0);
+    let normal = DVec3::new(1.0, 2.0, 0.5).normalize();
+    let middle = DVec3::splat(SIZE);
+    let cut = lattice([20, 20, 20], |p| (p - middle).dot(normal) < 0.0);
+    let far_from = |low: DVec3, high: DVec3| {
+        move |v: DVec3| (v - low).min_element().min((high - v).min_element()) > 6.0 * RADIUS
+    };
+    each_way(|way, make| {
+        let still = off_plane(
+            &make(&tank, &Walls::of(&scene)),
+            |v| v.y - 0.5,
+            far_from(DVec3::new(100.0, 0.2, 0.0), DVec3::new(101.0, 0.8, 0.6)),
+        );
+        let askew = off_plane(
+            &make(&cut, &Walls::default()),
+            |v| (v - middle).dot(normal),
+            far_from(DVec3::ZERO, DVec3::splat(2.0 * SIZE)),
+        );
+        assert!(still[0] < 0.06 && still[1] < 0.1, "{way}: {still:?} spacings off");
+        assert!(askew[0] < 0.15 && askew[1] < 0.2, "{way}: {askew:?} spacings off");
+    });
+}
+
 /// A mesh without holes has two more corners and faces than edges.
 #[test]
 fn a_sheet_of_one_layer_has_no_holes_and_stays_thin() {
