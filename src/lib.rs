@@ -37,8 +37,8 @@
 //!   their readings mean (`src/physics/sensors.rs`).
 //! - `src/surface/`: a surface around particles, made on the device: an implicit function in the voxels of a grid of its own,
 //!   and marching cubes (`shaders/surface/`).
-//! - `src/render/`: pictures from the simulation's own buffers: splats, water (`src/render/water.rs`), meshes
-//!   (`src/render/mesh.rs`), colliders, slices, the pool's heatmap, legends. Extra images for compositing
+//! - `src/render/`: pictures from the simulation's own buffers: splats, matte grains (`src/render/matte.rs`), water
+//!   (`src/render/water.rs`), meshes (`src/render/mesh.rs`), colliders, slices, the pool's heatmap, legends. Extra images for compositing
 //!   (`src/render/passes.rs`), motion blur and depth of field (`src/render/blur.rs`).
 //! - `src/plan/`: scene + limits → every buffer and pass, with the reason for each. Needs no GPU. What is good enough for an
 //!   error, from what was measured (`src/plan/achieved.rs`).
@@ -118,7 +118,8 @@
 //!   `src/output/video/mod.rs`;
 //! - an extra image of frames: one row in `src/render/passes.rs` and one in `src/output/passes.rs`, and its entry point in
 //!   `shaders/render/passes/images.wgsl`;
-//! - a look: what marks its pixels and where they see it, in `shaders/render/passes/`, so that it has extra images too;
+//! - a look: what marks its pixels and where they see it, in `shaders/render/passes/`, so that it has extra images too; one of matte grains: one
+//!   shader file in `shaders/render/looks/` and one row in `src/render/matte.rs`;
 //! - a picture of `sliceflow gallery`: one row in `src/cli/gallery/scenes.rs`;
 //! - a format of surfaces: one row in `src/output/surface/mesh_file.rs`;
 //! - a color map: one row in `src/scene/color_maps.rs`;

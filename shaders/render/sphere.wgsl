@@ -5,7 +5,11 @@
 #import render/drawn
 #import render/picture
 #import render/splat_quad
+#if matte
+#import <own_surface>
+#else
 #import render/lighting
+#end
 
 var<storage, read> splat: array<u32>;
 
@@ -18,6 +22,10 @@ struct Corner {
     @location(4) @interpolate(flat) rho_openness: vec2f,
 #if sizes
     @location(5) @interpolate(flat) radius: f32,
+#end
+#if matte
+    @location(6) @interpolate(flat) turn: vec4f,
+    @location(7) @interpolate(flat) detail: f32,
 #end
 }
 
@@ -36,6 +44,11 @@ fn place_sphere(@builtin(vertex_index) index: u32, @builtin(instance_index) i: u
         corner.center = center;
 #if sizes
         corner.radius = drawn_radius(i);
+#end
+#if matte
+        let grain = grain_of(id[i], drawn_radius(i), to_eye(center).w);
+        corner.turn = grain.turn;
+        corner.detail = grain.detail;
 #end
         corner.albedo = unpack_srgb(look);
         corner.rho_openness = vec2f(quad.rho, f32(look >> 24u) / 255.0);
@@ -64,6 +77,12 @@ fn shade_sphere(corner: Corner) -> Surface {
     let clip = picture.view_projection * vec4f(point, 1.0);
     var surface: Surface;
     surface.depth = clip.z / clip.w;
-    surface.color = vec4f(shade(corner.albedo, normal, corner.toward, point, corner.rho_openness.y, corner.clip.xy), 1.0);
+    let openness = corner.rho_openness.y;
+#if matte
+    let seen = own_surface(Grain(corner.turn, corner.detail), corner.albedo, normal);
+    surface.color = vec4f(shade_matte(seen, normal, corner.toward, point, openness, corner.clip.xy), 1.0);
+#else
+    surface.color = vec4f(shade(corner.albedo, normal, corner.toward, point, openness, corner.clip.xy), 1.0);
+#end
     return surface;
 }

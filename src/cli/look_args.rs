@@ -3,8 +3,8 @@
 #[derive(clap::Args, Default)]
 pub struct LookArgs {
     /// What the particles are drawn as: one splat each, one lit sphere each, the smooth surface of water,
-    /// or a mesh around all of them (both for fluids in 3D)
-    #[arg(long, value_parser = ["splats", "spheres", "water", "mesh"])]
+    /// a mesh around all of them (both for fluids in 3D), or matte grains of clay or sand
+    #[arg(long, value_parser = ["splats", "spheres", "water", "mesh", "clay", "sand"])]
     look: Option<String>,
     /// Writes extra images of each frame, for compositing: color, depth, normal, id, velocity, motion
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]

@@ -12,6 +12,7 @@ mod camera;
 mod colliders;
 mod layout;
 mod light;
+mod matte;
 mod mesh;
 mod needs;
 mod overlay;
@@ -95,8 +96,12 @@ impl Renderer {
                         "see `sliceflow scenes --color-maps`",
                     )
                 })?;
+                let color = |share: f64| match style.matte {
+                    Some(matte) => matte.color(share),
+                    None => (map.at)(share),
+                };
                 let entries: Vec<u32> = (0..256)
-                    .map(|k| backdrop::packed((map.at)(f64::from(k) / 255.0)) & 0x00ff_ffff)
+                    .map(|k| backdrop::packed(color(f64::from(k) / 255.0)) & 0x00ff_ffff)
                     .collect();
                 if buffers.contains("color_map") {
                     buffers.write(gpu, "color_map", 0, &entries)?;

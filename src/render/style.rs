@@ -3,6 +3,7 @@
 use super::camera::Sight;
 use super::layout::Layout;
 use super::light::{Light, SHADOW_TEXELS};
+use super::matte::{self, Matte};
 use super::needs::BLOCK;
 use super::passes;
 use super::picture::floor_height;
@@ -19,6 +20,8 @@ pub struct Style {
     pub three_dimensional: bool,
     /// Lit spheres; otherwise flat discs.
     pub spheres: bool,
+    /// Spheres are matte grains with colors of their own.
+    pub matte: Option<&'static Matte>,
     /// The surface of water in place of spheres or discs.
     pub water: bool,
     /// A mesh around the particles in place of spheres or discs; where there is water, its surface.
@@ -50,13 +53,14 @@ impl Style {
         let render = &scene.render;
         let drawn = view != View::Pool;
         let three_dimensional = scene.dimensions == Dimensions::Three;
-        let spheres = render.splat == Splat::Sphere || render.look == Look::Spheres;
+        let matte = matte::find(render.look);
+        let spheres = render.splat == Splat::Sphere || render.look == Look::Spheres || matte.is_some();
         let water = drawn && render.look == Look::Water;
         let mesh = drawn
             && match render.look {
                 Look::Mesh => true,
                 Look::Water => render.water.surface == WaterSurface::Mesh,
-                Look::Splats | Look::Spheres => false,
+                Look::Splats | Look::Spheres | Look::Clay | Look::Sand => false,
             };
         let radius = scene.radius() * render.splat_scale;
         let layout = Layout::new(scene, view);
@@ -68,6 +72,7 @@ impl Style {
         Self {
             three_dimensional,
             spheres,
+            matte,
             water,
             mesh,
             transparent: render.background == Background::Transparent,
@@ -90,6 +95,7 @@ impl Style {
     /// The plan's variant with what pictures add.
     pub fn variant(&self, scene: &Scene, plan: &Variant) -> Variant {
         let column = match scene.color.column.source {
+            _ if self.matte.is_some() => "render/looks/chance".to_owned(),
             Source::Given => "render/given_column".to_owned(),
             _ => {
                 let field = format!("fields/{}/color", scene.color.column.name);
@@ -105,6 +111,7 @@ impl Style {
             .flag("shadows", self.shadows)
             .flag("occlusion", self.occlusion)
             .flag("round_shadows", self.round_shadows)
+            .flag("matte", self.matte.is_some())
             .flag("has_floor", self.floor)
             .flag("water", self.water)
             .flag("water_mesh", self.water && self.mesh)
@@ -117,6 +124,9 @@ impl Style {
             .constant("SHADOW_TEXELS", SHADOW_TEXELS)
             .constant("OCCLUSION_BLOCK", BLOCK)
             .role("column", column);
+        if let Some(matte) = self.matte {
+            variant.role("own_surface", matte.shader);
+        }
         if self.mesh {
             // Its vertices are no particles, and have no lists.
             variant

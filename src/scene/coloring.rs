@@ -18,9 +18,15 @@ pub struct Known<'a> {
 
 pub fn coloring(known: &Known, report: &mut Report) -> Option<Coloring> {
     let mut color = known.file.render.color.clone();
-    if known.file.render.look == Look::Water {
-        // Water has a color of its own; what has few neighbors is spray.
-        color.by = "contacts".into();
+    let own_colors = match known.file.render.look {
+        // What has few neighbors is spray.
+        Look::Water => Some("contacts"),
+        // Each grain has a color by chance.
+        Look::Clay | Look::Sand => Some("id"),
+        Look::Splats | Look::Spheres | Look::Mesh => None,
+    };
+    if let Some(by) = own_colors {
+        color.by = by.into();
         color.range = None;
         color.legend = false;
     }

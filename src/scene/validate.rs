@@ -427,14 +427,14 @@ const MOST_SAMPLES: f64 = 1e5;
 
 /// Which scenes can be drawn as water or with a mesh, and the color of water.
 fn water(file: &SceneFile, frame: &Frame, report: &mut Report) {
-    let help = "choose `splats` or `spheres`";
+    let help = "choose `splats`, `spheres`, `clay` or `sand`";
     let (look, of_grains) = match file.render.look {
         Look::Water => (Some("water"), "grains are no `water`"),
         Look::Mesh => (
             Some("mesh"),
             "grains have no `mesh`: it is the surface of a fluid",
         ),
-        Look::Splats | Look::Spheres => (None, ""),
+        Look::Splats | Look::Spheres | Look::Clay | Look::Sand => (None, ""),
     };
     if let Some(look) = look {
         if frame.dimensions == Dimensions::Two {
@@ -466,7 +466,7 @@ fn passes(render: &Render, has_floating_bodies: bool, report: &mut Report) {
             report.problem(
                 key,
                 "a surface that is a mesh has neither extra images nor blur",
-                "choose `splats`, `spheres` or `water` for render.look, and for water `screen` for render.water.surface",
+                "choose another look than `mesh` for render.look, and for water `screen` for render.water.surface",
             );
         }
     }

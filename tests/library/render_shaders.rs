@@ -42,6 +42,14 @@ fn variants() -> Vec<Variant> {
                 .flag("occlusion", solid)
                 .flag("round_shadows", solid)
                 .flag("has_floor", solid)
+                .flag("matte", water)
+                .role(
+                    "own_surface",
+                    match transparent {
+                        true => "render/looks/sand",
+                        false => "render/looks/clay",
+                    },
+                )
                 .flag("water", water)
                 .flag("water_mesh", transparent)
                 .flag("transparent", transparent)

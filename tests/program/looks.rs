@@ -1,4 +1,4 @@
-//! Looks of pictures: splats, spheres, water, meshes; transparent pictures, and pictures without text. Needs an adapter; software
+//! Looks of pictures: splats, spheres, water, meshes, clay, sand; transparent pictures, and pictures without text. Needs an adapter; software
 //! Vulkan will do.
 
 use std::fs;
@@ -227,7 +227,7 @@ fn only_water_needs_waters_textures_and_passes() {
         buffers.chain(textures).chain(draws).collect()
     };
     let has = |look: &str, part: &str| names(&plan(look)).iter().any(|name| name.contains(part));
-    for look in ["splats", "spheres"] {
+    for look in ["splats", "spheres", "clay", "sand"] {
         assert!(!has(look, "water") && !has(look, "behind"), "{look}");
     }
     for part in ["water_depth", "water_thickness", "smooth_rows", "resolve_water"] {
@@ -260,7 +260,7 @@ fn run(place: &Place, out: &str, more: &[&str]) -> Vec<u8> {
 }
 
 #[test]
-fn water_has_the_same_bytes_again_and_from_files() {
+fn looks_have_the_same_bytes_again_and_from_files() {
     let place = Place::new();
     let first = run(&place, "first", &["--look", "water", "--particles", "npy"]);
     assert!(
@@ -272,6 +272,15 @@ fn water_has_the_same_bytes_again_and_from_files() {
     assert!(first == again, "drawn from files it differs");
     // A run that was drawn as splats can be drawn as water.
     let splats = run(&place, "splats", &["--particles", "npy"]);
+    for look in ["clay", "sand"] {
+        place.told(
+            &mut place.sliceflow(&["render", "splats", "--look", look, "-o", look]),
+            0,
+        );
+        let drawn = fs::read(place.path(look).join("frame_000002.png")).unwrap();
+        let simulated = run(&place, &format!("simulated_{look}"), &["--look", look]);
+        assert!(drawn == simulated, "{look}");
+    }
     place.told(
         &mut place.sliceflow(&["render", "splats", "--look", "water", "-o", "water"]),
         0,
@@ -287,6 +296,80 @@ fn water_has_the_same_bytes_again_and_from_files() {
             )
     );
     assert!(splats != run(&place, "discs", &["--set", "render.splat=disc"]));
+}
+
+/// Two grains side by side as `look` draws them, lit from the eye: the colors of the square in the middle of each, row by row.
+fn two_grains(look: &str) -> [Vec<[f64; 3]>; 2] {
+    let scene = tank(&[
+        "render.camera.axis=z",
+        "render.camera.height=0.15",
+        "render.color.map=sand",
+        "render.light=[0,0,1]",
+        "render.background=black",
+        "render.show.floor=false",
+        r#"bodies=[{"shape":{"kind":"box","min":[0.25,0.2,0.15],"max":[0.35,0.25,0.2]}}]"#,
+        &format!("render.look={look}"),
+    ]);
+    assert_eq!(scene.particles.len(), 2);
+    let gpu = stage::gpu();
+    let (image, _) = picture(&gpu, &scene, 0);
+    let [width, height] = scene.render.size.map(f64::from);
+    let sight = Sight::new(
+        &scene,
+        scene.render.size,
+        Layout::new(&scene, View::Scene).insets,
+        0.0,
+    );
+    let half = (0.6 * scene.radius() * height / 0.15) as i64;
+    [0, 1].map(|grain| {
+        let center = scene.particles.position[grain].as_dvec3() - sight.eye;
+        let ndc = DVec2::new(center.dot(sight.right), center.dot(sight.up)) / sight.half + sight.shift;
+        let middle = (DVec2::new(ndc.x, -ndc.y) + 1.0) / 2.0 * DVec2::new(width, height);
+        let pixel = |x: i64, y: i64| {
+            let at = middle + DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+            let [r, g, b, _] = image.get_pixel(at.x as u32, at.y as u32).0;
+            [r, g, b].map(f64::from)
+        };
+        let rows = -half..half;
+        rows.flat_map(|y| (-half..half).map(move |x| (x, y)))
+            .map(|(x, y)| pixel(x, y))
+            .collect()
+    })
+}
+
+/// Mean of a grain's colors.
+fn mean(grain: &[[f64; 3]]) -> [f64; 3] {
+    [0, 1, 2].map(|c| grain.iter().map(|color| color[c]).sum::<f64>() / grain.len() as f64)
+}
+
+/// How much the left half of a grain differs from the right half, as a share of its brightness: a smooth one does not.
+fn lopsided(grain: &[[f64; 3]]) -> f64 {
+    let side = grain.len().isqrt();
+    let mirrored = grain
+        .chunks_exact(side)
+        .flat_map(|row| row.iter().zip(row.iter().rev()));
+    let apart = mirrored
+        .map(|(left, right)| (left[1] - right[1]).abs())
+        .sum::<f64>();
+    apart / grain.len() as f64 / mean(grain)[1]
+}
+
+#[test]
+fn grains_of_clay_and_sand_are_matte_and_each_has_a_color_and_a_surface_of_its_own() {
+    for look in ["spheres", "clay", "sand"] {
+        let grains = two_grains(look);
+        let [one, other] = [mean(&grains[0]), mean(&grains[1])];
+        let apart = (0..3).map(|c| (one[c] - other[c]).abs()).fold(0.0, f64::max);
+        let unlike = lopsided(&grains[0]).min(lopsided(&grains[1]));
+        // A highlight is where light comes back to the eye, in the middle of a grain.
+        let brightest = grains[0].iter().map(|color| color[1]).fold(0.0, f64::max) / one[1];
+        let told =
+            format!("{look}: {apart} apart, {unlike} lopsided, the brightest pixel {brightest} of the mean");
+        match look {
+            "spheres" => assert!(apart < 1.0 && unlike < 0.002 && brightest > 1.2, "{told}"),
+            _ => assert!(apart > 15.0 && unlike > 0.01 && brightest < 1.15, "{told}"),
+        }
+    }
 }
 
 #[test]

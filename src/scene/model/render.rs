@@ -24,7 +24,7 @@ pub struct Render {
     /// Drawn radius over the particle's radius.
     #[schemars(range(min = 0.01, max = 10.0))]
     pub splat_scale: f64,
-    /// Colors of the particles, and their legend; water has a color of its own.
+    /// Colors of the particles, and their legend; `water`, `clay` and `sand` have colors of their own.
     pub color: Color,
     /// Where the eye is.
     pub camera: Camera,
@@ -79,7 +79,7 @@ impl Render {
     /// Whether each picture is drawn from particles where they stand, so that there are extra images and blur.
     pub fn follows_particles(&self) -> bool {
         match self.look {
-            Look::Splats | Look::Spheres => true,
+            Look::Splats | Look::Spheres | Look::Clay | Look::Sand => true,
             Look::Water => self.water.surface == WaterSurface::Screen,
             Look::Mesh => false,
         }
@@ -118,6 +118,10 @@ pub enum Look {
     /// One closed surface around the particles, lit, in the color of their values: a mesh that the device makes of each
     /// frame. Fluids in 3D have it.
     Mesh,
+    /// One matte lump of clay per particle, dented; each has its own shade of one color.
+    Clay,
+    /// One matte grain of sand per particle, with broken faces and specks; each has its own color of sand.
+    Sand,
 }
 
 /// An extra image of a frame. All but `color` hold what the middle of each pixel sees.
