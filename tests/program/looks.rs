@@ -178,6 +178,18 @@ fn thickness_is_that_of_the_water_along_the_view() {
     }
 }
 
+/// A layer of particles, 0.05 m, that is seen from above.
+#[test]
+fn thin_water_absorbs_as_a_film_of_two_and_a_half_spacings() {
+    let gpu = stage::gpu();
+    let layer = [
+        "render.camera.axis=y",
+        r#"bodies=[{"shape":{"kind":"box","min":[0,0,0],"max":[0.6,0.05,0.4]}}]"#,
+    ];
+    let film = thickness(&layer, |scene| picture(&gpu, scene, inside(scene)).0);
+    assert!((film / 0.125 - 1.0).abs() < 0.1, "{film} m of water");
+}
+
 #[test]
 fn particles_without_neighbors_are_white_and_small() {
     let gpu = stage::gpu();

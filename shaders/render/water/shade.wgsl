@@ -8,6 +8,7 @@
 
 const F0: f32 = 0.02; // of water: ((n - 1) / (n + 1))²
 const INVERSE_INDEX: f32 = 0.7519; // 1 / 1.33
+const FILM: f32 = 2.5; // spacings
 
 var scene_depth: texture_depth_2d;
 var water_thickness: texture_2d<f32>;
@@ -77,7 +78,10 @@ fn water_color(place: vec2i, distance: f32) -> vec4f {
 
     let bent = refract(-toward, normal, INVERSE_INDEX);
     let beyond = behind_between(refracted_pixel(pixel, point, distance, bent, thickness));
-    let passed = exp(-water.absorption.rgb * thickness);
+    // Thin water absorbs as a film of some thickness does, so that outlines do not fade into what is behind.
+    let film = FILM * water.spacing * smoothstep(0.2, 0.9, thickness / water.spacing);
+    let squares = vec2f(thickness * thickness, film * film);
+    let passed = exp(-water.absorption.rgb * sqrt(length(squares)));
     let day = 0.75 + 0.25 * dot(normal, picture.light.xyz);
     // Even a film of water is no less blue than one as thick as a particle.
     let within = water.scatter.rgb * day * (1.0 - passed * exp(-water.absorption.rgb * water.spacing));
