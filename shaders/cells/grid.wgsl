@@ -15,8 +15,10 @@ struct Grid {
     list_capacity: u32, // neighbors that a list has room for
     frame_steps: u32, // steps of a frame
     list_reach: f32, // of lists, m: the search radius and the skin
-    list_move: f32, // square of the way that a particle may move while its list serves, m²
+    list_move: f32, // square of how far a particle may come from where its list expects it, m²
     reached_capacity: u32, // boundary particles in reach of fluid that there is room for
+    list_way: f32, // where lists expect straight paths: square of the way that a particle may go while its list serves, m²
+    list_horizon: f32, // the same: how long the first lists look ahead, s
     period: vec4f, // in (x, y, z) order: lengths after which space repeats, m; 0 along directions where it does not
     inverse_period: vec4f, // 1/m; 0 along those directions
     period_lower: vec4f, // lower corner of what repeats, m

@@ -29,6 +29,7 @@ struct Guard {
     noted: atomic<u32>,
     extremes: Extremes, // of the step
     far: atomic<u32>, // not zero: a particle has moved so far that a neighbor may be missing from a list
+    listed_for: f32, // since lists were made that expect straight paths, s
     accidents: array<Accident, ACCIDENTS>, // those of the first step that were lower than all before them
 }
 

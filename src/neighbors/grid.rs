@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
+use super::lists;
 use super::room::Room;
 use crate::scene::model::{Axis, Cell, Wall};
 use crate::scene::{Dimensions, Scene};
@@ -36,11 +37,15 @@ shared_struct! {
         pub frame_steps: u32,
         /// Of lists, metres: the search radius and the skin.
         pub list_reach: f32,
-        /// Square of the way that a particle may move while its list serves, m².
+        /// Square of how far a particle may come from where its list expects it, m².
         pub list_move: f32,
         /// Boundary particles in reach of fluid that there is room for.
         pub reached_capacity: u32,
-        pub _pad: u32,
+        /// Where lists expect straight paths: square of the way that a particle may go while its list serves, m².
+        pub list_way: f32,
+        /// The same: how long the first lists look ahead, s.
+        pub list_horizon: f32,
+        pub _pad: [u32; 3],
         /// In (x, y, z) order: lengths after which space repeats, metres; 0 along directions where it does not.
         pub period: [f32; 4],
         /// 1/m; 0 along those directions.
@@ -60,14 +65,16 @@ impl Grid {
     /// Voxels over the scene's domain and as far beyond its open sides as the search follows particles, with slices
     /// across `axis` and no room yet.
     ///
-    /// Voxels are as wide as the search's radius (half of it with [`Cell::Half`]) and a little more: two points within
+    /// Voxels are as wide as lists look (half of it with [`Cell::Half`]) and a little more: two points within
     /// the radius are at most one voxel (two) apart as long as rounding moves a scaled coordinate by less than half of
     /// what the side is wider. Coordinates up to n voxels carry an error below 1.5·2⁻²³·n each, so the side is wider
     /// by n·2⁻²¹.
     pub fn new(scene: &Scene, axis: Axis) -> Self {
         let radius = scene.search_radius();
         let skin = radius * scene.neighbors.skin;
-        let reach = (radius + skin) / f64::from(voxel_reach(scene));
+        let paths = lists::straight_paths(scene);
+        let way = skin + paths.map_or(0.0, |paths| paths.reach);
+        let reach = (radius + way) / f64::from(voxel_reach(scene));
         let domain = &scene.domain;
         let (min, max) = searched(scene);
         let extent = max - min;
@@ -94,6 +101,7 @@ impl Grid {
         let lower = permuted(min, axis).map(|x| x as f32);
         let inverse = |length: f32| if length > 0.0 { 1.0 / length } else { 0.0 };
         let four = |v: [i32; 3], last| [v[0], v[1], v[2], last];
+        let half_of = |way: f64| (0.5 * way * (1.0 - MOVE_ROUNDING)).powi(2) as f32;
         Self {
             lower: [lower[0], lower[1], lower[2], 0.0],
             size: four(size, 1),
@@ -104,7 +112,9 @@ impl Grid {
             axis: axis_number(axis),
             frame_steps: scene.time.steps_per_frame,
             list_reach: (radius + skin) as f32,
-            list_move: (0.5 * skin * (1.0 - MOVE_ROUNDING)).powi(2) as f32,
+            list_move: half_of(skin),
+            list_way: half_of(way),
+            list_horizon: paths.map_or(0.0, |paths| paths.horizon) as f32,
             period: domain.period().extend(0.0).into(),
             inverse_period: Vec3::from(domain.period().to_array().map(inverse))
                 .extend(0.0)

@@ -43,5 +43,7 @@ shared_struct! {
         pub first_step: u32,
         /// Of the clock when the device stops and waits for the host.
         pub last_step: u32,
+        /// Seconds that lists which expect straight paths look ahead; 0 for what the grid says.
+        pub horizon: f32,
     }
 }

@@ -1,5 +1,6 @@
 //! Neighbor lists (Verlet 1967): each particle's neighbors within the search radius and a skin serve every step until a
-//! particle has moved by half the skin; only then are particles searched anew. The device decides.
+//! particle has moved by half the skin, or in a fluid strayed by as much from the straight path that it was on
+//! ([`StraightPaths`]); only then are particles searched anew. The device decides.
 //!
 //! Boundary particles without fluid within the radius and the skin are out of reach: no fluid can come near them before the
 //! next search, so they have no lists, and passes leave them out (`shaders/storage/lists/reached.wgsl`).
@@ -12,7 +13,7 @@ use super::layout::ListState;
 use super::{Grid, Room, Search, storage};
 use crate::error::{Error, Result};
 use crate::gpu::{BufferPlan, Items, Limits, PassPlan, Variant};
-use crate::scene::{Scene, floating};
+use crate::scene::{Scene, StepLimits, floating};
 
 /// Shader of the pass that counts a step; with lists it also decides whether to search.
 const CLOCK: &str = "physics/advance_clock";
@@ -21,6 +22,7 @@ const CLOCK: &str = "physics/advance_clock";
 pub(super) const FLAGS: &[&str] = &[
     "lists",
     "lists_every_step",
+    "straight_paths",
     "periodic",
     "walls_apart",
     "boundary_in_reach",
@@ -31,6 +33,13 @@ pub(super) const FLAGS: &[&str] = &[
 /// sectors of memory all the same.
 const LIST_LANES: u32 = 8;
 
+/// Of straight paths, see [`StraightPaths`]: how much farther lists look than the skin, in search radii.
+const PATH_REACH: f64 = 0.2;
+/// The same: steps that the first lists look ahead.
+const PATH_STEPS: f64 = 10.0;
+/// Horizons are so much longer than the steps, whose sum is rounded.
+const STEP_ROUNDING: f64 = 1e-3;
+
 /// Whether the scene asks for lists.
 pub fn wanted(scene: &Scene) -> bool {
     scene.neighbors.skin > 0.0 || every_step(scene)
@@ -39,6 +48,33 @@ pub fn wanted(scene: &Scene) -> bool {
 /// Whether lists are made in every step, for a solver that goes over them many times before particles move.
 pub fn every_step(scene: &Scene) -> bool {
     scene.neighbors.lists_every_step
+}
+
+/// Lists of fluids hold the particles that come within the radius and the skin if all go straight on for a while, and serve
+/// until one of them strays from its path by half the skin. Spray is fast, but hardly accelerated: it keeps its lists, where a
+/// skin as wide as its way would make all lists long. Lists look only so far for particles that come near; so they end, too,
+/// when one has gone half as far as they look beyond the radius.
+///
+/// How long they look ahead follows from how long the last ones lasted (`shaders/storage/lists/decide.wgsl`).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StraightPaths {
+    /// How much farther than the radius and the skin lists look, m.
+    pub reach: f64,
+    /// How long the first ones look ahead, s.
+    pub horizon: f64,
+}
+
+/// The paths that a scene's lists expect; `None` where they expect particles to stay.
+pub fn straight_paths(scene: &Scene) -> Option<StraightPaths> {
+    if every_step(scene) || !wanted(scene) || scene.fluid().is_none() {
+        return None;
+    }
+    let time = &scene.time;
+    let step = time.adaptive.as_ref().map_or(time.step, StepLimits::longest);
+    Some(StraightPaths {
+        reach: PATH_REACH * scene.search_radius(),
+        horizon: PATH_STEPS * step * (1.0 + STEP_ROUNDING),
+    })
 }
 
 /// Whether boundary particles stand at the end of each list, for a solver whose loops leave them out.
@@ -144,12 +180,12 @@ pub fn buffers(scene: &Scene, room: Room) -> Vec<BufferPlan> {
             "weights of the same neighbors in the pressure equation",
         ));
     } else {
-        buffers.push(BufferPlan::storage(
-            "listed_position",
-            particles,
-            size_of::<[f32; 4]>() as u64,
-            "where each particle was when it was listed",
-        ));
+        let (vectors, what) = match straight_paths(scene) {
+            Some(_) => (2, "where each particle was when it was listed, and how fast"),
+            None => (1, "where each particle was when it was listed"),
+        };
+        let bytes = vectors * size_of::<[f32; 4]>() as u64;
+        buffers.push(BufferPlan::storage("listed", particles, bytes, what));
     }
     if knows_reach(scene) {
         let words = (scene.boundary.len() as u64).div_ceil(32);
@@ -263,6 +299,7 @@ pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
         .flag("lists", true)
         .flag("lists_every_step", every_step(scene))
         .flag("walls_apart", walls_apart(scene))
+        .flag("straight_paths", straight_paths(scene).is_some())
         .flag("boundary_in_reach", knows_reach(scene))
         .flag(floating::FLAG, floating::are_in(scene))
         .constant("LIST_LANES", LIST_LANES)

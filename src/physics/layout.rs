@@ -113,7 +113,9 @@ shared_struct! {
         pub extremes: Extremes,
         /// Not zero: a particle has moved so far that a neighbor may be missing from a list.
         pub far: u32,
-        pub _pad: [u32; 3],
+        /// Seconds since lists were made that expect straight paths.
+        pub listed_for: f32,
+        pub _pad: [u32; 2],
         /// Those, in no order.
         pub accidents: [Accident; Guard::ACCIDENTS],
     }

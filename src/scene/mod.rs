@@ -556,6 +556,12 @@ pub struct StepLimits {
 }
 
 impl StepLimits {
+    /// What no step is longer than, s.
+    pub fn longest(&self) -> f64 {
+        let sound = self.courant_distance / self.sound_speed;
+        self.constant.0.min(sound).max(self.expected)
+    }
+
     /// What both allow.
     fn strictest(self, other: Self) -> Self {
         Self {

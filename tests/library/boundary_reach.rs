@@ -26,19 +26,24 @@ fn reached(simulation: &Simulation) -> Vec<u32> {
     numbers(simulation, "reached", 1 + count)[1..].to_vec()
 }
 
-/// The same on the host: those that have fluid nearer than the radius and the skin.
-fn reached_on_host(simulation: &Simulation, scene: &Scene, reach: f32) -> Vec<u32> {
+/// The same on the host: those that fluid comes nearer than the radius and the skin if it goes straight on.
+fn reached_on_host(simulation: &Simulation, scene: &Scene) -> Vec<u32> {
     let count = scene.capacity as usize;
-    let position: Vec<Vec3> = numbers::<[f32; 4]>(simulation, "position", count)
-        .into_iter()
-        .map(|[x, y, z, _]| Vec3::new(x, y, z))
-        .collect();
+    let [position, velocity] = ["position", "velocity"].map(|name| -> Vec<Vec3> {
+        let of_particles = numbers::<[f32; 4]>(simulation, name, count).into_iter();
+        of_particles.map(|[x, y, z, _]| Vec3::new(x, y, z)).collect()
+    });
+    let grid = sliceflow::neighbors::first_grid(scene);
     let ids: Vec<u32> = numbers(simulation, "id", count);
     let (fluid, boundary): (Vec<u32>, Vec<u32>) =
         (0..count as u32).partition(|&slot| ids[slot as usize] < scene.first_boundary());
-    let near = |a: u32, b: u32| {
-        let apart = position[a as usize] - position[b as usize];
-        apart.dot(apart) < reach * reach
+    let near = |wall: u32, drop: u32| {
+        let (apart, v) = (
+            position[drop as usize] - position[wall as usize],
+            velocity[drop as usize],
+        );
+        let nearest = (-apart.dot(v) / v.length_squared().max(1e-30)).clamp(0.0, grid.list_horizon);
+        (apart + nearest * v).length() < grid.list_reach
     };
     boundary
         .into_iter()
@@ -63,13 +68,12 @@ fn boundary_particles_in_reach_are_those_with_fluid_within_reach() {
         for &choices in &all[..if dimensions == 2 { 3 } else { 1 }] {
             let scene = common::fluid(dimensions, choices).with_steps_per_frame(20);
             let mut simulation = common::simulate(&scene, &Wanted::default());
-            let reach = lists_reach(&scene);
             let mut counts = Vec::new();
             for frame in 0..3 {
                 common::frames(&mut simulation, frame);
                 let found = reached(&simulation);
                 let label = format!("{dimensions}D, {choices:?}, frame {frame}");
-                assert_eq!(found, reached_on_host(&simulation, &scene, reach), "{label}");
+                assert_eq!(found, reached_on_host(&simulation, &scene), "{label}");
                 counts.push(found.len());
             }
             let all = scene.boundary.len();
@@ -79,10 +83,6 @@ fn boundary_particles_in_reach_are_those_with_fluid_within_reach() {
             );
         }
     }
-}
-
-fn lists_reach(scene: &Scene) -> f32 {
-    sliceflow::neighbors::first_grid(scene).list_reach
 }
 
 /// A drop that falls into a wide tank and spreads.

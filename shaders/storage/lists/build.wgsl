@@ -24,7 +24,44 @@ var<storage, read_write> reach_mark: array<atomic<u32>>;
 
 var<storage, read_write> neighbor_list: array<u32>;
 #if !lists_every_step
-var<storage, read_write> listed_position: array<Packed>;
+#import storage/lists/listed
+var<storage, read_write> listed: array<Listed>;
+#end
+
+fn place_of(j: u32) -> Vector {
+#if lists_boundary
+    return unpack(listed[j].place);
+#else
+    return unpack(position[j]);
+#end
+}
+
+#if straight_paths
+fn motion_of(j: u32) -> Vector {
+#if lists_boundary
+    return unpack(listed[j].motion);
+#else
+    return select(unpack(velocity[j]), Vector(0.0), is_boundary(j));
+#end
+}
+
+// Whether a particle at s comes near while it moves at u, both relative to the one whose list is made.
+fn comes_near(s: Vector, u: Vector) -> bool {
+    let square = max(dot(u, u), SLOWEST_SQUARE);
+    let nearest = clamp(-dot(s, u) / square, 0.0, list_horizon());
+    return within(s + nearest * u, grid.list_reach);
+}
+
+// Keeps a quotient finite, m²/s².
+const SLOWEST_SQUARE: f32 = 1e-30;
+// How far lists look, m.
+fn looked() -> f32 {
+    return f32(REACH) * grid.side;
+}
+#else
+fn looked() -> f32 {
+    return grid.list_reach;
+}
 #end
 
 #if boundary_in_reach
@@ -37,9 +74,9 @@ fn mark_reached(j: u32) {
 }
 #end
 
-// Lists those of a range that are near y in a row, beside `count` others; returns how many they are then. In y those are
+// Lists those of a range that are near y, where particle i or an image of it moves at v, in a row, beside `count` others; returns how many they are then. In y those are
 // counted that stand at the end of the row.
-fn list_range(i: u32, row: u32, wall: bool, y: Vector, range: vec2u, count: vec2u) -> vec2u {
+fn list_range(i: u32, row: u32, wall: bool, y: Vector, v: Vector, range: vec2u, count: vec2u) -> vec2u {
     var found = count;
     for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {
         let j = candidate(slot);
@@ -56,7 +93,12 @@ fn list_range(i: u32, row: u32, wall: bool, y: Vector, range: vec2u, count: vec2
         let reach = grid.list_reach;
 #end
 #end
-        if wanted && within(unpack(position[j]) - y, reach) {
+        let s = place_of(j) - y;
+#if straight_paths
+        if wanted && within(s, looked()) && (within(s, reach) || comes_near(s, motion_of(j) - v)) {
+#else
+        if wanted && within(s, reach) {
+#end
 #if walls_apart
             let behind = is_boundary(j);
             let place = select(found.x, grid.list_capacity - 1u - found.y, behind);
@@ -83,25 +125,25 @@ fn list_range(i: u32, row: u32, wall: bool, y: Vector, range: vec2u, count: vec2
 }
 
 // Makes the list with this number, that of particle i at x.
-fn list_around(i: u32, number: u32, wall: bool, x: Vector) {
+fn list_around(i: u32, number: u32, wall: bool, x: Vector, v: Vector) {
     let row = list_row(number);
     let second = second_row();
     var count = vec2u(0u);
     for (var image_number = 0u; image_number < IMAGES; image_number++) {
         var y: Vector;
-        if !image(x, image_number, grid.list_reach, &y) {
+        if !image(x, image_number, looked(), &y) {
             continue;
         }
         let home = voxel_of(y);
         for (var k = 0u; k < RANGE_PAIRS; k++) {
             let pair = range_pair(home, k, second);
-            count = list_range(i, row, wall, y, pair.xy, count);
+            count = list_range(i, row, wall, y, v, pair.xy, count);
 #if separated
 #if floating_bodies
-            count = list_range(i, row, wall, y, pair.zw, count);
+            count = list_range(i, row, wall, y, v, pair.zw, count);
 #else
             if !wall {
-                count = list_range(i, row, false, y, pair.zw, count);
+                count = list_range(i, row, false, y, v, pair.zw, count);
             }
 #end
 #end
@@ -129,7 +171,7 @@ fn list_candidates(thread: Thread) {
 #if floating_bodies
         let number = member_number(id[i]);
         if number < MEMBERS {
-            list_around(i, list_of_member(number, i), true, unpack(position[i]));
+            list_around(i, list_of_member(number, i), true, unpack(position[i]), Vector(0.0));
         }
 #end
         return;
@@ -141,8 +183,14 @@ fn list_candidates(thread: Thread) {
     }
 #end
     let x = unpack(position[i]);
+    var v = Vector(0.0);
+#if straight_paths
+    v = motion_of(i);
+    listed[i] = Listed(pack(x), pack(v));
+#else
 #if !lists_every_step
-    listed_position[i] = pack(x);
+    listed[i] = Listed(pack(x));
 #end
-    list_around(i, i, wall, x);
+#end
+    list_around(i, i, wall, x, v);
 }

@@ -12,10 +12,10 @@ fn list_reached(thread: Thread) {
         return;
     }
     let x = unpack(position[i]);
-    listed_position[i] = pack(x);
+    listed[i] = Listed(pack(x), pack(Vector(0.0)));
     if is_reached(i) {
         let place = reached_before(i);
         reached[1u + place] = i;
-        list_around(i, parameters.free_count + place, true, x);
+        list_around(i, parameters.free_count + place, true, x, Vector(0.0));
     }
 }

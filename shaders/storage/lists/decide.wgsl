@@ -13,6 +13,9 @@
 #if adaptive_step
 #import physics/step_control
 #end
+#if straight_paths
+#import physics/time_step
+#end
 #import storage/lists/state
 
 // Arguments of an indirect dispatch: whether the passes that lay out the grid run.
@@ -80,11 +83,48 @@ fn has_moved() -> bool {
     return false;
 }
 
+#if straight_paths
+// Sums of steps are rounded: horizons are longer by this share.
+const STEP_ROUNDING: f32 = 1e-3;
+
+fn next_step() -> f32 {
+#if adaptive_step
+    return step_control.next_step;
+#else
+    return time_step();
+#end
+}
+
+// Lists look ahead for so many times what the last ones lasted; steps, at least and at most.
+const LOOK_AHEAD: f32 = 1.5;
+const FEWEST_AHEAD: f32 = 3.0;
+const MOST_AHEAD: f32 = 40.0;
+
+// Whether the next step ends behind what lists looked ahead. Where lists end, it says how far the next ones look; those of a
+// frame's end look as far as those of the start, as a run does that goes on from there.
+fn horizon_ends() -> bool {
+    guard.listed_for += time_step();
+    let ends = guard.listed_for + next_step() > list_horizon();
+    if frame_ends() {
+        list_state.horizon = 0.0;
+    } else if ends || atomicLoad(&guard.far) != 0u {
+        let steps = clamp(LOOK_AHEAD * guard.listed_for / next_step(), FEWEST_AHEAD, MOST_AHEAD);
+        list_state.horizon = (1.0 + STEP_ROUNDING) * steps * next_step();
+    }
+    return ends;
+}
+#else
+fn horizon_ends() -> bool {
+    return false;
+}
+#end
+
 fn decide_search() {
 #if lists_every_step
     let due = true;
 #else
-    let due = atomicLoad(&guard.far) != 0u || frame_ends();
+    let ends = horizon_ends();
+    let due = ends || atomicLoad(&guard.far) != 0u || frame_ends();
 #end
     let returned = dispatch[DISPATCH_RETURNING].x != 0u;
     let goes_on = !due && steps_are_left();

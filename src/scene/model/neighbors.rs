@@ -24,8 +24,9 @@ pub struct Neighbors {
     #[schemars(range(min = 1, max = 64))]
     pub slots: u32,
     /// With more than 0, each particle keeps a list of its neighbors, which reaches farther than the search radius by
-    /// this share of it and serves until a particle has moved by half of that. When left out, 0.1, and 0 with a `pool`,
-    /// whose slots are meant for voxels as wide as the radius.
+    /// this share of it and serves until a particle has moved by half of that; in a fluid, has strayed by half of that from the
+    /// straight path that it was on. When left out, 0.1, and 0 with a `pool`, whose slots are meant for voxels as wide as the
+    /// radius.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub skin: Option<f64>,
     /// Room in the grid's buffers, as a multiple of what the particles need when the buffers are made.

@@ -1,6 +1,7 @@
 //! Fluids: what tests of them share.
 
 mod flows;
+mod lists;
 mod reference;
 mod walls;
 

@@ -37,6 +37,7 @@ fn every_flag_is_composed_both_on_and_off() {
                 "has_obstacles",
                 "color_pass",
                 "blurred",
+                "matte",
             ];
             for flag in flags {
                 variant.flag(flag, solid);
@@ -45,6 +46,7 @@ fn every_flag_is_composed_both_on_and_off() {
                 .constant("SHADOW_TEXELS", 1024)
                 .constant("OCCLUSION_BLOCK", 8)
                 .role("seen_particle", "render/passes/seen_sphere")
+                .role("own_surface", "render/looks/sand")
                 .role("column", "fields/id/color");
             for path in compose::files().iter().filter(|path| path.starts_with("render/")) {
                 see(path, &variant);
