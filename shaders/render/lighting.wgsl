@@ -8,10 +8,7 @@
 // `openness` is the share of the surroundings' light that reaches the place; `pixel` turns the shadow's filter.
 fn shade(albedo: vec3f, normal: vec3f, toward_eye: vec3f, point: vec3f, openness: f32, pixel: vec2f) -> vec3f {
     let toward_light = picture.light.xyz;
-    var lit = 1.0;
-#if shadows
-    lit = sunlight(point, normal, pixel);
-#end
+    let lit = sunlit(point, normal, pixel);
     let key = max(dot(normal, toward_light), 0.0) * lit;
     let sky = sky_light(normal);
     let facing = max(dot(normal, toward_eye), 0.0);
@@ -21,6 +18,15 @@ fn shade(albedo: vec3f, normal: vec3f, toward_eye: vec3f, point: vec3f, openness
     let halfway = normalize(toward_light + toward_eye);
     let gloss = 0.10 * pow(max(dot(normal, halfway), 0.0), 40.0) * lit;
     return soften(albedo * light + gloss);
+}
+
+// The share of the key light that reaches a place.
+fn sunlit(point: vec3f, normal: vec3f, pixel: vec2f) -> f32 {
+#if shadows
+    return sunlight(point, normal, pixel);
+#else
+    return 1.0;
+#end
 }
 
 const SUN: vec3f = vec3f(0.86, 0.84, 0.80);

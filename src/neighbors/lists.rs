@@ -35,10 +35,8 @@ const LIST_LANES: u32 = 8;
 
 /// Of straight paths, see [`StraightPaths`]: how much farther lists look than the skin, in search radii.
 const PATH_REACH: f64 = 0.2;
-/// The same: steps that the first lists look ahead.
-const PATH_STEPS: f64 = 10.0;
-/// Horizons are so much longer than the steps, whose sum is rounded.
-const STEP_ROUNDING: f64 = 1e-3;
+/// The same: steps, as long as they may be, that the first lists look ahead.
+const PATH_STEPS: u32 = 10;
 
 /// Whether the scene asks for lists.
 pub fn wanted(scene: &Scene) -> bool {
@@ -73,7 +71,7 @@ pub fn straight_paths(scene: &Scene) -> Option<StraightPaths> {
     let step = time.adaptive.as_ref().map_or(time.step, StepLimits::longest);
     Some(StraightPaths {
         reach: PATH_REACH * scene.search_radius(),
-        horizon: PATH_STEPS * step * (1.0 + STEP_ROUNDING),
+        horizon: f64::from(PATH_STEPS) * step,
     })
 }
 
@@ -304,6 +302,7 @@ pub fn plan(search: &mut Search, scene: &Scene, variant: &mut Variant) {
         .flag(floating::FLAG, floating::are_in(scene))
         .constant("LIST_LANES", LIST_LANES)
         .constant("LIST_HEAD", head(scene))
+        .constant("PATH_STEPS", PATH_STEPS)
         .flag("periodic", scene.domain.period() != glam::Vec3::ZERO)
         .role("candidates", "storage/lists/query");
     search_state(search);

@@ -1,5 +1,5 @@
-//! Looks of pictures: splats, spheres, water, meshes, clay, sand; transparent pictures, and pictures without text. Needs an adapter; software
-//! Vulkan will do.
+//! Looks of pictures: splats, spheres, water, meshes, clay, sand; transparent pictures, and pictures without text. Needs an
+//! adapter; software Vulkan will do.
 
 use std::fs;
 

@@ -41,15 +41,11 @@ fn turned_back(q: vec4f, v: vec3f) -> vec3f {
 // the sphere that stands for the grain.
 fn shade_matte(seen: Matte, round: vec3f, toward_eye: vec3f, point: vec3f, openness: f32, pixel: vec2f) -> vec3f {
     let toward_light = picture.light.xyz;
-    var lit = 1.0;
-#if shadows
-    lit = sunlight(point, round, pixel);
-#end
     let to_light = max(dot(seen.normal, toward_light), 0.0);
     let facing = max(dot(seen.normal, toward_eye), 0.0);
     let apart = dot(toward_light, toward_eye) - to_light * facing;
     let back = apart / select(1.0, max(max(to_light, facing), 0.05), apart > 0.0);
-    let key = to_light * max(MATTE_FLAT + MATTE_BACK * back, 0.0) * lit;
+    let key = to_light * max(MATTE_FLAT + MATTE_BACK * back, 0.0) * sunlit(point, round, pixel);
     let crevice = 0.55 + 0.45 * max(dot(round, toward_eye), 0.0);
     let light = (sky_light(seen.normal) * crevice + 0.08 * facing) * openness * openness + SUN * key;
     return soften(seen.albedo * light);

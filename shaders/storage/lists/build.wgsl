@@ -45,6 +45,9 @@ fn motion_of(j: u32) -> Vector {
 #end
 }
 
+// Keeps a quotient finite, m²/s².
+const SLOWEST_SQUARE: f32 = 1e-30;
+
 // Whether a particle at s comes near while it moves at u, both relative to the one whose list is made.
 fn comes_near(s: Vector, u: Vector) -> bool {
     let square = max(dot(u, u), SLOWEST_SQUARE);
@@ -52,8 +55,6 @@ fn comes_near(s: Vector, u: Vector) -> bool {
     return within(s + nearest * u, grid.list_reach);
 }
 
-// Keeps a quotient finite, m²/s².
-const SLOWEST_SQUARE: f32 = 1e-30;
 // How far lists look, m.
 fn looked() -> f32 {
     return f32(REACH) * grid.side;
@@ -74,8 +75,8 @@ fn mark_reached(j: u32) {
 }
 #end
 
-// Lists those of a range that are near y, where particle i or an image of it moves at v, in a row, beside `count` others; returns how many they are then. In y those are
-// counted that stand at the end of the row.
+// Lists in a row, beside `count` others, those of a range that are near y, where particle i or an image of it moves at v; returns
+// how many there are then, in y those that stand at the end of the row.
 fn list_range(i: u32, row: u32, wall: bool, y: Vector, v: Vector, range: vec2u, count: vec2u) -> vec2u {
     var found = count;
     for (var slot = range.x; slot < range.y; slot += SLOT_STEP) {

@@ -84,32 +84,22 @@ fn has_moved() -> bool {
 }
 
 #if straight_paths
-// Sums of steps are rounded: horizons are longer by this share.
-const STEP_ROUNDING: f32 = 1e-3;
-
-fn next_step() -> f32 {
-#if adaptive_step
-    return step_control.next_step;
-#else
-    return time_step();
-#end
-}
-
-// Lists look ahead for so many times what the last ones lasted; steps, at least and at most.
+// Lists look ahead for so many times what the last ones lasted; of the longest steps, at least and at most.
 const LOOK_AHEAD: f32 = 1.5;
 const FEWEST_AHEAD: f32 = 3.0;
 const MOST_AHEAD: f32 = 40.0;
 
-// Whether the next step ends behind what lists looked ahead. Where lists end, it says how far the next ones look; those of a
+// Whether the next step may end behind what lists looked ahead. Where lists end, it says how far the next ones look; those of a
 // frame's end look as far as those of the start, as a run does that goes on from there.
 fn horizon_ends() -> bool {
+    let longest_step = grid.list_horizon / f32(PATH_STEPS);
     guard.listed_for += time_step();
-    let ends = guard.listed_for + next_step() > list_horizon();
+    let ends = guard.listed_for + longest_step > list_horizon();
     if frame_ends() {
         list_state.horizon = 0.0;
     } else if ends || atomicLoad(&guard.far) != 0u {
-        let steps = clamp(LOOK_AHEAD * guard.listed_for / next_step(), FEWEST_AHEAD, MOST_AHEAD);
-        list_state.horizon = (1.0 + STEP_ROUNDING) * steps * next_step();
+        let steps = clamp(LOOK_AHEAD * guard.listed_for / longest_step, FEWEST_AHEAD, MOST_AHEAD);
+        list_state.horizon = steps * longest_step;
     }
     return ends;
 }
